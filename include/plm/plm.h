@@ -617,9 +617,9 @@ PLM_API plm_status plm_model_set_gap_motion(plm_model *model, int32_t harmonic, 
  * M, K and C act through the supports as they do among the free DOFs: a dashpot to a support needs its entries there. Modal
  * damping, structural damping and the stiffness part of Rayleigh's damp the relative motion, the mass part and the matrix C
  * the absolute one. A row of the gap matrix that the base moves, as against a wall that stands still, has a gap that moves
- * (plm_model_set_gap_motion says what follows); that takes PLM_DISPLACEMENT, or plm_model_build refuses. A row with
- * a support in it is a wall that moves with the support. It is excitation: force_scale multiplies it; it belongs to the build
- * and is not changed after it. real = NULL removes harmonic h. */
+ * (plm_model_set_gap_motion says what follows), of a given velocity or acceleration by another amount at every frequency. A
+ * row with a support in it is a wall that moves with the support. It is excitation: force_scale multiplies it; it belongs to
+ * the build and is not changed after it. real = NULL removes harmonic h. */
 #define PLM_DISPLACEMENT 0
 #define PLM_VELOCITY 1
 #define PLM_ACCELERATION 2

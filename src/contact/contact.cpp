@@ -16,14 +16,26 @@ bool Contact::has_interference() const {
     return std::any_of(initial_gap.begin(), initial_gap.end(), [](double g) { return g < 0; });
 }
 
+namespace {
+
+bool acts(const GapHarmonic &part) {
+    const auto is_something = [](double g) { return g != 0; };
+    return std::any_of(part.real.begin(), part.real.end(), is_something) ||
+           std::any_of(part.imag.begin(), part.imag.end(), is_something);
+}
+
+} // namespace
+
 int Contact::highest_motion() const {
-    const auto acts = [](double g) { return g != 0; };
     int highest = -1;
-    for (const auto &[harmonic, part] : motion)
-        if (std::any_of(part.real.begin(), part.real.end(), acts) ||
-            std::any_of(part.imag.begin(), part.imag.end(), acts))
-            highest = std::max(highest, harmonic);
+    for (const auto &[part, gaps] : motion)
+        if (acts(gaps)) highest = std::max(highest, part.harmonic);
     return highest;
+}
+
+bool Contact::moves_by_frequency() const {
+    return std::any_of(motion.begin(), motion.end(),
+                       [](const auto &entry) { return entry.first.power != 0 && acts(entry.second); });
 }
 
 std::complex<double> Contact::moved(const GapHarmonic &harmonic, std::int64_t pair) {
@@ -32,41 +44,46 @@ std::complex<double> Contact::moved(const GapHarmonic &harmonic, std::int64_t pa
             at < harmonic.imag.size() ? harmonic.imag[at] : 0.0};
 }
 
-Matrix Contact::gap_motion(std::int64_t n_harmonics, std::int64_t multiple) const {
+Matrix Contact::motion_by(double (LoadPart::*growth)(double) const, std::int64_t n_harmonics, double omega,
+                          std::int64_t multiple) const {
     Matrix g(n_pairs(), 2 * n_harmonics + 1);
-    for (const auto &[harmonic, part] : motion) {
-        const std::int64_t h = harmonic * multiple;
+    for (const auto &[part, gaps] : motion) {
+        const std::int64_t h = part.harmonic * multiple;
+        const double size = (part.*growth)(omega);
         for (std::int64_t i = 0; i < n_pairs() && h <= n_harmonics; ++i) {
-            const std::complex<double> moves = moved(part, i); // Re(z exp(i h t)) = Re z cos - Im z sin
-            g(i, h == 0 ? 0 : 2 * h - 1) = moves.real();
-            if (h > 0) g(i, 2 * h) = -moves.imag();
+            const std::complex<double> moves =
+                size * moved(gaps, i); // Re(z exp(i h t)) = Re z cos - Im z sin
+            g(i, h == 0 ? 0 : 2 * h - 1) += moves.real();
+            if (h > 0) g(i, 2 * h) -= moves.imag();
         }
     }
     return g;
 }
 
-Matrix Contact::gaps(std::int64_t n_harmonics, double scale, std::int64_t multiple) const {
-    Matrix g = gap_motion(n_harmonics, multiple);
+Matrix Contact::gaps(std::int64_t n_harmonics, double omega, double scale, std::int64_t multiple) const {
+    Matrix g = gap_motion(n_harmonics, omega, multiple);
     for (std::int64_t k = 0; k < g.rows() * g.cols(); ++k) g.data()[k] *= scale;
     for (std::int64_t i = 0; i < n_pairs(); ++i) g(i, 0) += initial_gap[i];
     return g;
 }
 
-vector<double> Contact::gaps_at(double angle, double scale) const {
+vector<double> Contact::gaps_at(double omega, double time, double scale) const {
     vector<double> g = initial_gap;
-    for (const auto &[harmonic, part] : motion) {
-        const std::complex<double> turn = scale * std::polar(1.0, harmonic * angle);
-        for (std::int64_t i = 0; i < n_pairs(); ++i) g[i] += (moved(part, i) * turn).real();
+    for (const auto &[part, gaps] : motion) {
+        const std::complex<double> turn =
+            scale * part.growth(omega) * std::polar(1.0, part.harmonic * omega * time);
+        for (std::int64_t i = 0; i < n_pairs(); ++i) g[i] += (moved(gaps, i) * turn).real();
     }
     return g;
 }
 
-vector<double> Contact::gap_rates_at(double angle, double scale) const {
+vector<double> Contact::gap_rates_at(double omega, double time, double scale) const {
     vector<double> rate(initial_gap.size(), 0.0);
-    for (const auto &[harmonic, part] : motion) {
-        const std::complex<double> turn =
-            scale * std::polar(1.0, harmonic * angle) * std::complex<double>(0, harmonic);
-        for (std::int64_t i = 0; i < n_pairs(); ++i) rate[i] += (moved(part, i) * turn).real();
+    for (const auto &[part, gaps] : motion) {
+        const std::complex<double> turn = scale * part.growth(omega) *
+                                          std::polar(1.0, part.harmonic * omega * time) *
+                                          std::complex<double>(0, part.harmonic * omega);
+        for (std::int64_t i = 0; i < n_pairs(); ++i) rate[i] += (moved(gaps, i) * turn).real();
     }
     return rate;
 }
@@ -82,10 +99,10 @@ Contact Contact::of_pairs(const vector<std::int64_t> &pairs, vector<double> of_t
     Contact some;
     some.stiffness = std::move(of_them);
     for (std::int64_t i : pairs) some.initial_gap.push_back(initial_gap[i]);
-    for (const auto &[harmonic, part] : motion)
+    for (const auto &[part, gaps] : motion)
         for (std::int64_t i : pairs) {
-            some.motion[harmonic].real.push_back(moved(part, i).real());
-            some.motion[harmonic].imag.push_back(moved(part, i).imag());
+            some.motion[part].real.push_back(moved(gaps, i).real());
+            some.motion[part].imag.push_back(moved(gaps, i).imag());
         }
     return some;
 }

@@ -5,6 +5,7 @@
 #include "contact/contact_law.hpp"
 #include "contact/pair_states.hpp"
 #include "linalg/dense.hpp"
+#include "linalg/load_part.hpp"
 #include <complex>
 #include <map>
 
@@ -13,12 +14,12 @@ namespace plm {
 /// Of pairs with these penetrations.
 PairStates states_at(const vector<double> &u);
 
-/// One harmonic of the gaps' motion, Re((real + i imag) exp(i h omega t)); imag is empty where it is zero,
-/// and pairs beyond the end stand still.
+/// One part of the gaps' motion, omega^power Re((real + i imag) exp(i h omega t)); imag is empty where it is
+/// zero, and pairs beyond the end stand still.
 struct GapHarmonic {
     vector<double> real, imag;
 };
-using GapMotion = std::map<int, GapHarmonic>; // by harmonic
+using GapMotion = std::map<LoadPart, GapHarmonic>;
 
 struct Contact {
     vector<double> stiffness;   // k_n of every pair
@@ -41,13 +42,20 @@ struct Contact {
     int highest_motion() const;
     /// Complex amplitude of the gap of one pair in one harmonic.
     static std::complex<double> moved(const GapHarmonic &harmonic, std::int64_t pair);
+    /// Their motion is another one at another frequency.
+    bool moves_by_frequency() const;
     /// Fourier coefficients of the gaps, Z x (2H + 1): the initial ones and `scale` times their motion, over
-    /// `multiple` periods of it; and of the motion alone.
-    Matrix gaps(std::int64_t n_harmonics, double scale, std::int64_t multiple = 1) const;
-    Matrix gap_motion(std::int64_t n_harmonics, std::int64_t multiple = 1) const;
-    /// At the angle omega t; and their change by that angle.
-    vector<double> gaps_at(double angle, double scale) const;
-    vector<double> gap_rates_at(double angle, double scale) const;
+    /// `multiple` periods of it; of the motion alone; and of its change by the frequency.
+    Matrix gaps(std::int64_t n_harmonics, double omega, double scale, std::int64_t multiple = 1) const;
+    Matrix gap_motion(std::int64_t n_harmonics, double omega, std::int64_t multiple = 1) const {
+        return motion_by(&LoadPart::growth, n_harmonics, omega, multiple);
+    }
+    Matrix gap_motion_change(std::int64_t n_harmonics, double omega, std::int64_t multiple = 1) const {
+        return motion_by(&LoadPart::growth_rate, n_harmonics, omega, multiple);
+    }
+    /// At a time; and their rates then.
+    vector<double> gaps_at(double omega, double time, double scale) const;
+    vector<double> gap_rates_at(double omega, double time, double scale) const;
     /// Through which moving walls act on the structure about these penetrations at rest: those of the pairs
     /// that touch; of all pairs, where none does.
     vector<double> wall_springs(const vector<double> &rest) const;
@@ -69,6 +77,10 @@ struct Contact {
     /// Share of the motion u of the pairs that keeps to the states, pressing pairs and parting ones each for
     /// themselves, those by their forces; the lesser of the two.
     double agreement(const PairStates &states, const vector<double> &u) const;
+
+  private:
+    Matrix motion_by(double (LoadPart::*growth)(double) const, std::int64_t n_harmonics, double omega,
+                     std::int64_t multiple) const;
 };
 
 } // namespace plm

@@ -14,7 +14,7 @@ constexpr double clear_of_noise = 1e4;
 
 } // namespace
 
-PieceEvents::PieceEvents(const Contact &contact, const Matrix &gap, double wall_scale)
+PieceEvents::PieceEvents(const Contact &contact, const Matrix &gap, double omega, double wall_scale)
     : states_(PairStates::all_closed(gap.rows())), at_zero_(gap.rows()), row_norm_(gap.rows()),
       gap_size_(gap.rows()), noise_(gap.rows()), polynomial_(max_polynomial_degree + 1), sides_(gap.rows()) {
     for (std::int64_t i = 0; i < gap.rows(); ++i) {
@@ -22,8 +22,8 @@ PieceEvents::PieceEvents(const Contact &contact, const Matrix &gap, double wall_
         for (std::int64_t j = 0; j < gap.cols(); ++j) sum += gap(i, j) * gap(i, j);
         row_norm_[i] = std::sqrt(sum);
         gap_size_[i] = std::abs(contact.initial_gap[i]);
-        for (const auto &harmonic : contact.motion)
-            gap_size_[i] += std::abs(wall_scale * Contact::moved(harmonic.second, i));
+        for (const auto &[part, gaps] : contact.motion)
+            gap_size_[i] += std::abs(wall_scale * part.growth(omega) * Contact::moved(gaps, i));
     }
 }
 

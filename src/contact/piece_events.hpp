@@ -9,7 +9,7 @@ namespace plm {
 class PieceEvents {
   public:
     /// gap: Z x n, the rows by which a state moves the pairs; wall_scale: of the gaps' motion.
-    PieceEvents(const Contact &contact, const Matrix &gap, double wall_scale = 1);
+    PieceEvents(const Contact &contact, const Matrix &gap, double omega = 1, double wall_scale = 1);
 
     const PairStates &states() const { return states_; }
     /// By the penetrations alone; pairs at zero get their side from correct().

@@ -43,8 +43,9 @@ class GapSystem final : public HbmSystem {
         : m_(std::move(reduced)), h_(options.n_harmonics), n_(2 * h_ + 1), z_(m_->n_pairs()), r_(m_->size()),
           r0_(m_->static_size()), force_(make_contact_force(options, z_)),
           form_(make_formulation(*m_, options)), response_(m_, form_, h_),
-          motion_(m_->contact.gap_motion(h_)), u_(z_, n_), contact_(z_, n_), constant_(h_ + 1), eta_(h_ + 1),
-          force_scale_(options.force_scale), equations_(h_), cosine_(z_), sine_(z_), response_of_load_(r_) {
+          motion_(m_->contact.gap_motion(h_, omega_)), u_(z_, n_), contact_(z_, n_), constant_(h_ + 1),
+          eta_(h_ + 1), force_scale_(options.force_scale), equations_(h_), cosine_(z_), sine_(z_),
+          response_of_load_(r_) {
         GapSystem::set_extra_gap(0);
         if (form_.compliant) law_ = std::make_shared<const vector<double>>(form_.stiffness);
     }
@@ -88,7 +89,7 @@ class GapSystem final : public HbmSystem {
 
     void set_extra_gap(double extra) override {
         extra_gap_ = extra;
-        gap_ = m_->contact.gaps(h_, force_scale_);
+        gap_ = m_->contact.gaps(h_, gap_omega_, force_scale_);
         for (std::int64_t i = 0; i < z_; ++i) gap_(i, 0) += extra;
     }
 
@@ -151,6 +152,10 @@ class GapSystem final : public HbmSystem {
             response_.write_gaps(v, 1.0, r + (2 * h - 1) * z_);
         }
         take_response_to_loads(force_scale_, &LoadPart::growth_rate, r); // and -B D dF/d omega
+        if (!m_->contact.moves_by_frequency()) return;
+        Matrix change = m_->contact.gap_motion_change(h_, omega_);
+        for (std::int64_t k = 0; k < size(); ++k) r[k] += change.data()[k] *= force_scale_;
+        add_mean_by_gaps(change.col(0), r);
     }
 
     void linear_response(const vector<double> &coupling, double omega, double *x) override {
@@ -193,6 +198,7 @@ class GapSystem final : public HbmSystem {
         Matrix dynamic(z_, 2 * h_), eta = point.eta;
         set_harmonics(eta, h_);
         gemm('N', 'N', 1.0, m_->gap, eta, 0.0, dynamic);
+        move_gaps(point.omega);
         gemv('N', 1.0, m_->gap_0, point.eta_0.data(), 0.0, x);
         std::copy(dynamic.data(), dynamic.data() + z_ * 2 * h_, x + z_);
         for (std::int64_t k = 0; k < size(); ++k) x[k] -= gap_.data()[k];
@@ -203,6 +209,13 @@ class GapSystem final : public HbmSystem {
     void set_frequency(double omega) {
         omega_ = omega;
         response_.set_frequency(omega);
+        move_gaps(omega);
+    }
+    void move_gaps(double omega) {
+        if (omega == gap_omega_ || !m_->contact.moves_by_frequency()) return;
+        gap_omega_ = omega;
+        motion_ = m_->contact.gap_motion(h_, omega);
+        set_extra_gap(extra_gap_);
     }
 
     // r -= scale B D F, each part of the excitation with its factor at omega_.
@@ -357,12 +370,13 @@ class GapSystem final : public HbmSystem {
     LawForm form_;
     GapResponse response_;
     std::shared_ptr<const vector<double>> law_; // for points; null: penalty
-    const Matrix motion_; // of the gaps at a force scale of 1, Z x (2H + 1), and the gaps themselves
+    double omega_ = 1, gap_omega_ = 1;
+    Matrix motion_; // of the gaps at a force scale of 1, Z x (2H + 1), and the gaps themselves
     Matrix gap_, u_, contact_;
     std::vector<Constant> constant_;
     std::vector<vector<Complex>> eta_; // harmonics >= 1
     vector<double> eta_0_;
-    double force_scale_, omega_ = 1, extra_gap_ = 0, stiffness_factor_ = 1;
+    double force_scale_, extra_gap_ = 0, stiffness_factor_ = 1;
     vector<std::int64_t> moving_;
     mutable MovingPairs equations_; // its sign may take a solution
     // of one call to the next: no iteration allocates

@@ -81,11 +81,15 @@ void HarmonicEquations::factor_bordered(const Border &border, std::unique_ptr<Bo
 MotionGradient HarmonicEquations::tangent_change(const vector<double> &w, const vector<double> &v) {
     const ReducedModel &m = *reduced_;
     const Matrix change = contact_change(w, v),
-                 motion = m.contact.gap_motion(change.cols() / 2, options_.period_multiple);
+                 motion = m.contact.gap_motion(change.cols() / 2, omega_, options_.period_multiple);
     vector<double> gradient(size(), 0.0);
     add_coordinates_of_gaps(m.gap_0, m.gap, -1.0, change, gradient.data());
-    return {gradient, -dot(size(), w.data(), frequency_derivative(v).data()),
-            dot(motion.rows() * motion.cols(), motion.data(), change.data())};
+    double by_frequency = -dot(size(), w.data(), frequency_derivative(v).data());
+    if (m.contact.moves_by_frequency()) {
+        const Matrix moved = m.contact.gap_motion_change(change.cols() / 2, omega_, options_.period_multiple);
+        by_frequency += options_.force_scale * dot(moved.rows() * moved.cols(), moved.data(), change.data());
+    }
+    return {gradient, by_frequency, dot(motion.rows() * motion.cols(), motion.data(), change.data())};
 }
 
 // (dJ/domega) v: dR/domega is the same matrix times x, and what the loads change by, whatever x is.
@@ -93,9 +97,9 @@ vector<double> HarmonicEquations::frequency_derivative(const vector<double> &v) 
     vector<double> change(size()), back(size()), scratch(size()), opposite(v);
     for (double &o : opposite) o = -o;
     system_->residual(opposite.data(), omega_, scratch.data());
-    system_->parameter_derivative(back.data());
+    system_->parameter_derivative_of_structure(back.data());
     system_->residual(v.data(), omega_, scratch.data());
-    system_->parameter_derivative(change.data());
+    system_->parameter_derivative_of_structure(change.data());
     for (std::size_t j = 0; j < change.size(); ++j) change[j] = 0.5 * (change[j] - back[j]);
     system_->residual(x_.data(), omega_, scratch.data());
     return change;
@@ -122,7 +126,7 @@ Matrix HarmonicEquations::contact_change(const vector<double> &w, const vector<d
     const std::int64_t z = m.n_pairs();
     if (z == 0) return Matrix(0, 1);
     Matrix u = gap_motion(x_.data(), 1);
-    const Matrix gaps = m.contact.gaps(u.cols() / 2, options_.force_scale, options_.period_multiple);
+    const Matrix gaps = m.contact.gaps(u.cols() / 2, omega_, options_.force_scale, options_.period_multiple);
     for (std::int64_t k = 0; k < gaps.rows() * gaps.cols(); ++k) u.data()[k] -= gaps.data()[k];
     const SwitchingInstants switching = switching_instants(u);
     const Matrix ut = u.transposed(), vt = gap_motion(v.data(), 1).transposed(),

@@ -41,6 +41,10 @@ class SubharmonicSystem final : public WrappedSystem {
         inner_.parameter_derivative(r);
         for (std::int64_t i = 0; i < size(); ++i) r[i] /= multiple_;
     }
+    void parameter_derivative_of_structure(double *r) override {
+        inner_.parameter_derivative_of_structure(r);
+        for (std::int64_t i = 0; i < size(); ++i) r[i] /= multiple_;
+    }
     void linear_response(const vector<double> &coupling, double omega, double *x) override {
         inner_.linear_response(coupling, omega / multiple_, x);
     }
@@ -48,6 +52,11 @@ class SubharmonicSystem final : public WrappedSystem {
         inner_.to_point(x, omega / multiple_, point);
         point.omega = omega;
         point.period_multiple = static_cast<std::int64_t>(multiple_);
+    }
+    void from_point(const BranchPoint &point, double *x) override {
+        BranchPoint longer = point;
+        longer.omega /= multiple_;
+        inner_.from_point(longer, x);
     }
 
   private:
@@ -57,17 +66,23 @@ class SubharmonicSystem final : public WrappedSystem {
 
 std::shared_ptr<const ReducedModel> on_longer_period(const ReducedModel &reduced, std::int64_t multiple) {
     auto longer = std::make_shared<ReducedModel>(reduced);
+    // its frequency is that of the longer period
+    const auto scale = [multiple](const LoadPart &part, vector<double> &real, vector<double> &imag) {
+        for (vector<double> *values : {&real, &imag})
+            for (double &f : *values) f *= part.growth(static_cast<double>(multiple));
+    };
     longer->excitation.clear();
     for (const auto &[part, load] : reduced.excitation) {
         HarmonicLoad &longer_load =
             longer->excitation[{part.harmonic * static_cast<int>(multiple), part.power}] = load;
-        // its frequency is that of the longer period
-        for (vector<double> *values : {&longer_load.real, &longer_load.imag})
-            for (double &f : *values) f *= part.growth(static_cast<double>(multiple));
+        scale(part, longer_load.real, longer_load.imag);
     }
     longer->contact.motion.clear();
-    for (const auto &[harmonic, part] : reduced.contact.motion)
-        longer->contact.motion[harmonic * static_cast<int>(multiple)] = part;
+    for (const auto &[part, gaps] : reduced.contact.motion) {
+        GapHarmonic &longer_gaps =
+            longer->contact.motion[{part.harmonic * static_cast<int>(multiple), part.power}] = gaps;
+        scale(part, longer_gaps.real, longer_gaps.imag);
+    }
     return longer;
 }
 

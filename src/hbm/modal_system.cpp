@@ -15,8 +15,9 @@ class ModalSystem final : public HbmSystem {
     ModalSystem(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options)
         : m_(std::move(reduced)), h_(options.n_harmonics), r_(m_->size()), r0_(m_->static_size()),
           z_(m_->n_pairs()), force_(make_contact_force(options, z_)), stiffness_(m_->contact.stiffness),
-          motion_(m_->contact.gap_motion(h_)), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1), x_(size(), 0.0),
-          grows_(grow(m_->excitation)), jacobian_(m_, h_) {
+          motion_(m_->contact.gap_motion(h_, omega_)), u_(z_, 2 * h_ + 1), contact_(z_, 2 * h_ + 1),
+          x_(size(), 0.0), grows_(grow(m_->excitation) || m_->contact.moves_by_frequency()),
+          jacobian_(m_, h_) {
         require_balanced(*m_);
         load_.assign(size(), 0.0);
         excitation_ = excitation_by(&LoadPart::growth);
@@ -104,6 +105,14 @@ class ModalSystem final : public HbmSystem {
     void set_self_excitation(double xi) override { jacobian_.set_self_excitation(xi); }
 
     void parameter_derivative(double *r) override {
+        parameter_derivative_of_structure(r);
+        if (!m_->contact.moves_by_frequency()) return;
+        Matrix change = m_->contact.gap_motion_change(h_, omega_);
+        for (std::int64_t k = 0; k < change.rows() * change.cols(); ++k) change.data()[k] *= force_scale_;
+        add_change_by_gaps(change, r);
+    }
+
+    void parameter_derivative_of_structure(double *r) override {
         std::fill(r, r + size(), 0.0);
         for (std::int64_t h = 1; h <= h_; ++h) {
             const double *a = x_.data() + cosine_at(h), *b = a + r_;
@@ -173,6 +182,9 @@ class ModalSystem final : public HbmSystem {
         if (!load_changes) return;
         excitation_ = excitation_by(&LoadPart::growth);
         set_loads();
+        if (!m_->contact.moves_by_frequency()) return;
+        motion_ = m_->contact.gap_motion(h_, omega_);
+        set_gaps();
     }
     void set_loads() {
         for (std::int64_t j = 0; j < size(); ++j) load_[j] = force_scale_ * excitation_[j];
@@ -202,7 +214,7 @@ class ModalSystem final : public HbmSystem {
         add_coordinates_of_gaps(m_->gap_0, m_->gap, -1.0, force, r);
     }
     void set_gaps() {
-        gap_ = m_->contact.gaps(h_, force_scale_);
+        gap_ = m_->contact.gaps(h_, omega_, force_scale_);
         for (std::int64_t i = 0; i < z_; ++i) gap_(i, 0) += extra_gap_;
     }
     void hold_mean() { jacobian_.set_hold(indicator_, load_.data()); }
@@ -243,11 +255,11 @@ class ModalSystem final : public HbmSystem {
     std::int64_t h_, r_, r0_, z_;
     std::unique_ptr<ContactForce> force_;
     vector<double> stiffness_, excitation_, load_;
-    const Matrix motion_; // of the gaps at a force scale of 1, Z x (2H + 1), and the gaps themselves
+    double omega_ = 1, force_scale_ = 1, extra_gap_ = 0;
+    Matrix motion_; // of the gaps at a force scale of 1, Z x (2H + 1), and the gaps themselves
     Matrix gap_, u_, contact_;
     vector<double> x_;
-    double omega_ = 1, force_scale_ = 1, extra_gap_ = 0;
-    const bool grows_; // the excitation, with the frequency
+    const bool grows_; // the excitation or the motion of walls, with the frequency
     ModalJacobian jacobian_;
     Border no_border_;
     ModalFactor factor_;

@@ -49,6 +49,9 @@ class HbmSystem : public Residual {
     virtual void set_extra_gap(double gap) = 0;
     /// dR/d(extra gap) at the last residual().
     virtual void gap_derivative(double *r) = 0;
+    /// parameter_derivative() without what it has by the motion of walls: linear in x but for the loads.
+    /// Reduced coordinates only.
+    virtual void parameter_derivative_of_structure(double * /*r*/) { throw_not_modal(); }
 
     virtual const ContactIndicator &indicator() const { return indicator_; }
     std::int64_t piece() const override { return indicator().n_switching; }

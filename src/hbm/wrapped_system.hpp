@@ -19,6 +19,9 @@ class WrappedSystem : public HbmSystem {
     void jacobian_product(const double *v, double *r) override { inner_.jacobian_product(v, r); }
     void set_self_excitation(double xi) override { inner_.set_self_excitation(xi); }
     void parameter_derivative(double *r) override { inner_.parameter_derivative(r); }
+    void parameter_derivative_of_structure(double *r) override {
+        inner_.parameter_derivative_of_structure(r);
+    }
     int determinant_sign() const override { return inner_.determinant_sign(); }
     void linear_response(const vector<double> &coupling, double p, double *x) override {
         inner_.linear_response(coupling, p, x);

@@ -11,7 +11,7 @@ Matrix penetration(const Matrix &gap_0, const Matrix &gap, const Contact &contac
     set_harmonics(eta, n_harmonics);
     gemv('N', 1.0, gap_0, point.eta_0.data(), 0.0, u.col(0));
     const Matrix dynamic = product('N', 'N', gap, eta),
-                 gaps = contact.gaps(n_harmonics, point.force_scale, point.period_multiple);
+                 gaps = contact.gaps(n_harmonics, point.omega, point.force_scale, point.period_multiple);
     std::copy(dynamic.data(), dynamic.data() + z * columns, u.col(1));
     for (std::int64_t k = 0; k < z * (columns + 1); ++k) u.data()[k] -= gaps.data()[k];
     return u;

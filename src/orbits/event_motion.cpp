@@ -151,11 +151,11 @@ Matrix EventMotion::penetrations(const Whole &steady, const vector<double> &stat
     set_.add_contact(u, force);
     gemv('N', 1.0, model_.gap(), steady.y.data(), 1.0, u.col(0));
     gemv('N', 1.0, model_.gap(), steady.v.data(), 1.0, u.col(1));
-    const vector<double> gaps = model_.contact().gaps_at(omega_ * time, force_scale_),
-                         rates = model_.contact().gap_rates_at(omega_ * time, force_scale_);
+    const vector<double> gaps = model_.contact().gaps_at(omega_, time, force_scale_),
+                         rates = model_.contact().gap_rates_at(omega_, time, force_scale_);
     for (std::int64_t p = 0; p < z; ++p) {
         u(p, 0) -= gaps[p];
-        u(p, 1) -= omega_ * rates[p];
+        u(p, 1) -= rates[p];
     }
     return u;
 }

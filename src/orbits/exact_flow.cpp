@@ -34,7 +34,7 @@ constexpr int side_corrections = 8;      // one is usual; more when pairs that r
 ExactFlow::ExactFlow(std::shared_ptr<const FlowModel> model, double omega, double force_scale, Watch watch,
                      std::shared_ptr<ContactModesKept> modes)
     : model_(std::move(model)), omega_(omega), force_scale_(force_scale), watch_(watch), own_set_(*model_),
-      events_(model_->contact(), model_->gap(), force_scale), modes_(std::move(modes)),
+      events_(model_->contact(), model_->gap(), omega, force_scale), modes_(std::move(modes)),
       following_(model_->size()) {
     if (!(omega > 0 && std::isfinite(omega) && std::isfinite(force_scale)))
         throw Error(status::argument, "the flow needs a positive, finite frequency and a finite force scale")

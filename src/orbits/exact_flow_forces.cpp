@@ -70,8 +70,8 @@ void ExactFlow::expand_offsets(double time, double duration, Series &series) {
             following_[j] = series.force(j, k) / model_->lambda()[j];
         gemv('N', 1.0, model_->gap(), following_.data(), 0.0, series.offset.col(k));
     }
-    const auto powers_of = [&](int harmonic) {
-        return powers_of_load(&series == &derivative_, harmonic, time, duration, series.offset.cols());
+    const auto powers_of = [&](const LoadPart &part) {
+        return powers_of_load(&series == &derivative_, part, time, duration, series.offset.cols());
     };
     add_wall_powers(model_->contact(), -1, powers_of, series.offset);
     if (&series == &derivative_) return; // the initial gaps stay

@@ -30,7 +30,7 @@ FlowModel::FlowModel(std::shared_ptr<const ReducedModel> reduced, double omega) 
     for (const auto &entry : contact().motion) {
         HarmonicLoad &load = excitation_[entry.first];
         load.real.resize(lambda_.size(), 0.0);
-        if (entry.first > 0) load.imag.resize(lambda_.size(), 0.0);
+        if (entry.first.harmonic > 0) load.imag.resize(lambda_.size(), 0.0);
     }
     damping_diagonal_ = reduced_->damping_diagonal;
     damping_ = reduced_->damping;
@@ -171,8 +171,8 @@ vector<double> FlowModel::constant_load(const vector<double> &springs) const {
 
 vector<std::complex<double>> FlowModel::gap_motion(const LoadPart &part) const {
     vector<std::complex<double>> g(static_cast<std::size_t>(n_pairs()), 0.0);
-    const auto found = contact().motion.find(part.harmonic);
-    if (part.power != 0 || found == contact().motion.end()) return g; // walls move as they are told
+    const auto found = contact().motion.find(part);
+    if (found == contact().motion.end()) return g;
     for (std::int64_t i = 0; i < n_pairs(); ++i) g[i] = Contact::moved(found->second, i);
     return g;
 }

@@ -96,7 +96,7 @@ TransientRun FullMotion::run(const TransientOptions &options, const vector<std::
     const double omega = excitation_omega(options), period = 2 * M_PI / omega;
     FullState start = present();
     start.time = phase() * period;
-    RunObserver observer(*model_, start, model_->contact().gaps_at(omega * start.time, options.force_scale),
+    RunObserver observer(*model_, start, model_->contact().gaps_at(omega, start.time, options.force_scale),
                          observed);
     NewmarkResult found = march(newmark_options(options), omega, start, observer, watch);
     TransientRun run;

@@ -35,16 +35,16 @@ inline vector<std::complex<double>> changed_load_powers(FlowParameter parameter,
     return z;
 }
 
-/// Adds `factor` times the motion of the walls to the powers of the gaps, Z x terms. powers_of(harmonic): as
+/// Adds `factor` times the motion of the walls to the powers of the gaps, Z x terms. powers_of(part): as
 /// load_powers(), with no more of them.
 template <class Powers>
 void add_wall_powers(const Contact &contact, double factor, const Powers &powers_of, Matrix &gaps) {
-    for (const auto &[harmonic, part] : contact.motion) {
-        const vector<std::complex<double>> powers = powers_of(harmonic);
+    for (const auto &[part, moves] : contact.motion) {
+        const vector<std::complex<double>> powers = powers_of(part);
         for (std::size_t k = 0; k < powers.size(); ++k)
             for (std::int64_t i = 0; i < gaps.rows(); ++i)
                 gaps(i, static_cast<std::int64_t>(k)) +=
-                    factor * (powers[k] * Contact::moved(part, i)).real();
+                    factor * (powers[k] * Contact::moved(moves, i)).real();
     }
 }
 

@@ -118,7 +118,7 @@ void Newmark::subtract_internal_forces(const Field &q, const Field &v, Field &f)
 }
 
 void Newmark::subtract_gaps(double time) {
-    const vector<double> gaps = model_->contact().gaps_at(omega_ * time, options_.force_scale);
+    const vector<double> gaps = model_->contact().gaps_at(omega_, time, options_.force_scale);
     for (std::size_t i = 0; i < u_free_.size(); ++i) u_free_[i] -= gaps[i];
 }
 

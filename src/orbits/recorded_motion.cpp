@@ -205,13 +205,15 @@ Matrix RecordedMotion::harmonics(std::int64_t first, std::int64_t count) const {
 void RecordedMotion::weigh_powers(const Piece &p, std::int64_t first, Matrix &weight) const {
     const std::int64_t terms = p.coefficient.cols(), count = weight.cols() / 2;
     const double turn = 2 * M_PI * p.duration / duration_; // of the first harmonic during the piece
+    const auto turned_by = [](double angle) { return std::polar(1.0, -angle); };
+    const double start = 2 * M_PI * p.start / duration_, number_of_first = static_cast<double>(first);
+    const Complex next_end = turned_by(turn), next_phase = turned_by(start);
+    Complex end = turned_by(number_of_first * turn),
+            phase = 2 * p.duration / duration_ * turned_by(number_of_first * start);
     vector<Complex> m;
     weight.reset(terms, weight.cols());
-    for (std::int64_t h = 0; h < count; ++h) {
-        const double number = static_cast<double>(first + h);
-        exponential_moments({0, -number * turn}, std::polar(1.0, -number * turn), terms - 1, m);
-        const Complex phase =
-            2 * p.duration / duration_ * std::polar(1.0, -2 * M_PI * number * p.start / duration_);
+    for (std::int64_t h = 0; h < count; ++h, end *= next_end, phase *= next_phase) {
+        exponential_moments({0, -(number_of_first + static_cast<double>(h)) * turn}, end, terms - 1, m);
         for (std::int64_t k = 0; k < terms; ++k) {
             const Complex w = phase * m[k];
             weight(k, 2 * h) = w.real();
@@ -285,8 +287,8 @@ Matrix gap_powers(const ExactFlow &flow, double begin, double duration) {
     const double turn = static_cast<double>(fastest) * flow.omega() * duration;
     Matrix g(contact.n_pairs(), taylor_terms(turn, rounding));
     for (std::int64_t i = 0; i < g.rows(); ++i) g(i, 0) = contact.initial_gap[i];
-    const auto powers_of = [&](int harmonic) {
-        return load_powers(harmonic, flow.omega(), flow.force_scale(), begin, duration, g.cols());
+    const auto powers_of = [&](const LoadPart &part) {
+        return load_powers(part, flow.omega(), flow.force_scale(), begin, duration, g.cols());
     };
     add_wall_powers(contact, 1, powers_of, g);
     return g;

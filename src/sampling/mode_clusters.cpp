@@ -60,16 +60,16 @@ HarmonicLoads drive_of(const Space &space) {
     if (!contact.moves()) return loads;
     const vector<double> spring = contact.wall_springs(rest_of(space)->penetration);
     vector<double> real(spring.size()), imag(spring.size());
-    for (const auto &[harmonic, part] : contact.motion) {
+    for (const auto &[part, gaps] : contact.motion) {
         for (std::size_t i = 0; i < spring.size(); ++i) {
-            const std::complex<double> force = spring[i] * Contact::moved(part, static_cast<std::int64_t>(i));
+            const std::complex<double> force = spring[i] * Contact::moved(gaps, static_cast<std::int64_t>(i));
             real[i] = force.real();
             imag[i] = force.imag();
         }
-        HarmonicLoad &load = loads[harmonic];
+        HarmonicLoad &load = loads[part];
         load.real.resize(space.lambda.size(), 0.0);
         gemv('T', 1.0, space.gap, real.data(), 1.0, load.real.data());
-        if (harmonic == 0) continue;
+        if (part.harmonic == 0) continue;
         load.imag.resize(space.lambda.size(), 0.0);
         gemv('T', 1.0, space.gap, imag.data(), 1.0, load.imag.data());
     }

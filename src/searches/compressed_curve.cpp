@@ -18,6 +18,9 @@ constexpr std::int64_t many_coordinates = 30;
 // What is left out of the motions, in the energy norm: at first, and how much less each time that was too
 // much. The amplitudes that follow are nearer.
 constexpr double left_out_at_first = 1e-3, less = 0.3;
+// The same where the whole basis is at hand to compare with, and the share of the tolerance to be met there:
+// the motion at the highest point of the next curve is another one.
+constexpr double a_little_less = 0.6, spare = 0.5;
 // Where all pairs bounce, their motions have something of every direction, most of it too little to move an
 // amplitude: a model grows by no more than this from one to the next.
 constexpr double grows = 1.5;
@@ -36,28 +39,8 @@ constexpr std::int64_t most_rounds = 6;
 // nothing. Its own error is a part of that, and is measured where its curve is highest.
 constexpr double likely_settled = 30;
 
-// Of multipliers near the unit circle, on curves of cracked plates; and of motions whose multipliers are
-// right to that.
-constexpr double multiplier_error = 1e-4, motion_error = 1e-5;
-constexpr double same_motion = 0.1; // of its size: farther away it is another one
-
 bool is_dear_step(const ReducedModel &model, const HbmOptions &options) {
     return exact_step_flops(model, options) > options.dearest_step;
-}
-
-// Half-way between special points, of which one is no fold.
-vector<std::size_t> beside_changes(const std::vector<BranchPoint> &points) {
-    vector<std::size_t> at;
-    std::size_t before = 0;
-    bool changed = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-        const std::int32_t kind = points[i].bifurcation;
-        if (kind == bifurcation::none && i + 1 < points.size()) continue;
-        const bool change = kind != bifurcation::none && kind != bifurcation::fold;
-        if ((changed || change) && i > before + 1) at.push_back((before + i) / 2);
-        before = i, changed = change;
-    }
-    return at;
 }
 
 } // namespace
@@ -243,10 +226,45 @@ bool CurveCompression::begin_with(const Branch &look) {
     return false;
 }
 
+// What compression leaves out is a share of the motions, which are about as large as the force.
 void CurveCompression::go_on(const HbmOptions &options) {
+    const double force = std::abs(options_.force_scale), next = std::abs(options.force_scale);
+    const Level before = last_;
+    last_ = {force, change_};
+    if (better_ != whole_) left_out_ /= less; // the last one was better than it needed to be
+    // The error of the last two levels goes on as a power of the force.
+    if (better_ == whole_ && before.change > 0 && change_ > 0 && before.force != force && next > 0) {
+        const double power = std::log(change_ / before.change) / std::log(force / before.force),
+                     growth = std::pow(next / force, power);
+        if (growth * change_ > tolerance() && grow_to(spare * tolerance() / growth)) last_ = {};
+    }
+    if (force > 0 && next > 0) scale_ *= next / force;
     options_ = options;
-    left_out_ /= less; // for the next model: the last one was better than it needed to be
-    on_whole_ = nullptr;
+}
+
+// Until the motion that the whole basis has at the curve's highest point is so near on a model. False: none
+// much smaller than the whole one is.
+bool CurveCompression::grow_to(double enough) {
+    take(top_on_better_, needs_.motions);
+    needs_.springs.push_back(mean_springs(*whole_, top_on_better_));
+    const double amplitude_there = amplitude(whole_, top_on_better_);
+    std::int64_t size = 0;
+    for (std::int64_t round = 0; round < most_rounds; ++round) {
+        left_out_ *= a_little_less;
+        const auto larger = compressed_after(model_.get());
+        if (static_cast<double>(larger->size()) > much_smaller * static_cast<double>(whole_->size())) break;
+        if (larger->size() == size) continue;
+        size = larger->size();
+        BranchPoint point = top_on_better_;
+        if (!make_exact_on(larger, point, ElseMarching::no)) continue;
+        const double change = std::abs(amplitude(larger, point) - amplitude_there) / amplitude_there;
+        watch_.log(1, format("%lld of %lld coordinates: the highest motion is off by %.2g of itself",
+                             static_cast<long long>(size), static_cast<long long>(whole_->size()), change));
+        if (change > enough) continue;
+        model_ = larger;
+        return true;
+    }
+    return false;
 }
 
 bool CurveCompression::confirms(const Branch &curve) {
@@ -254,6 +272,12 @@ bool CurveCompression::confirms(const Branch &curve) {
     top_ = largest_response(curve);
     const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top_)];
     if (!exact.motion) return false;
+    if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
+        compare_with_whole(curve);
+        if (change_ <= tolerance()) return true;
+        grow_to(spare * tolerance());
+        return false;
+    }
     std::vector<Point> one(1);
     one[0].motion = uncompressed(curve.reduced(), exact);
     peak_ = one[0].amplitude = amplitude(curve.reduced_model(), exact);
@@ -328,74 +352,6 @@ void CurveCompression::warn(Branch &curve) const {
                    "one: stability flags near there are not certain, and %s",
                    doubtful_.c_str(), static_cast<long long>(curve.reduced().size()),
                    static_cast<long long>(whole_->size()), dear.c_str()));
-}
-
-bool CurveCompression::agrees(const BranchPoint &on_curve, const std::shared_ptr<const ReducedModel> &model,
-                              const BranchPoint &there, double amplitude_on_curve, double error) const {
-    const double outside = std::abs(there.multipliers[0]) - 1;
-    return std::abs(outside) <= multiplier_error || (outside < 0) == (stability_of(on_curve) == 1) ||
-           // beside a fold there is another motion of the same frequency
-           std::abs(amplitude(model, there) - amplitude_on_curve) > error * peak_;
-}
-
-// The whole basis beside a point of the curve: the motion found from the point's own state, or by other ways.
-bool CurveCompression::agrees_on_whole(const Branch &curve, std::int64_t point) {
-    const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
-    HbmOptions nearly = options_;
-    nearly.tolerance = std::max(options_.tolerance, motion_error);
-    if (!on_whole_)
-        on_whole_ = std::make_shared<const OrbitEquations>(
-            orbit_equations(whole_, nearly, on_curve.omega, FlowParameter::frequency));
-    OrbitEquations equations = orbit_equations(*on_whole_, nearly, on_curve.omega, FlowParameter::frequency);
-    PathState at = {equations.unknowns(start_of(curve, point).state), on_curve.omega};
-    const vector<double> start = at.x;
-    const NewtonOutcome out = newton_at(equations, newton_limits(nearly), at.x, at.parameter);
-    double moved = 0;
-    for (std::size_t i = 0; i < start.size(); ++i) moved = std::hypot(moved, at.x[i] - start[i]);
-    BranchPoint p;
-    if (out.converged && moved <= same_motion * norm2(equations.size(), at.x.data())) {
-        p = orbit_point(equations, nearly, at, out.residual, out.iterations);
-        equations.linearize();
-        p.multipliers = equations.multipliers();
-    } else {
-        p = uncompressed(curve.reduced(), on_curve);
-        NewtonWork work;
-        if (!make_exact(whole_, nearly, watch_.quiet(), p, work) || p.multipliers.empty()) return false;
-    }
-    return agrees(on_curve, whole_, p, amplitude(curve.reduced_model(), on_curve), options_.accuracy);
-}
-
-// The same on the last model that was better.
-bool CurveCompression::agrees_on_better(const Branch &curve, std::int64_t point) {
-    const BranchPoint &on_curve = curve.points()[static_cast<std::size_t>(point)];
-    BranchPoint p = top_on_better_;
-    if (point != top_ || !p.motion) {
-        p = uncompressed(curve.reduced(), on_curve);
-        if (!make_exact_on(better_, p, ElseMarching::no)) return false;
-    }
-    if (p.multipliers.empty()) return false;
-    return agrees(on_curve, better_, p, amplitude(curve.reduced_model(), on_curve),
-                  std::max(options_.accuracy, change_));
-}
-
-bool CurveCompression::confirms_stability(const Branch &curve) {
-    const auto &points = curve.points();
-    vector<std::size_t> at = beside_changes(points);
-    at.push_back(static_cast<std::size_t>(largest_response(curve)));
-    const auto agrees =
-        is_dear(*whole_) ? &CurveCompression::agrees_on_better : &CurveCompression::agrees_on_whole;
-    doubtful_.clear();
-    on_whole_ = nullptr;
-    for (std::size_t i : at) {
-        if (!points[i].motion || stability_of(points[i]) < 0 ||
-            (this->*agrees)(curve, static_cast<std::int64_t>(i)))
-            continue;
-        doubtful_ =
-            format("stability at %.6g Hz is not as on the compressed model", points[i].omega / (2 * M_PI));
-        watch_.log(1, doubtful_);
-        return is_dear(*whole_); // nothing else is at hand: warn()
-    }
-    return true;
 }
 
 } // namespace plm

@@ -50,6 +50,11 @@ class CurveCompression {
     bool confirms_stability(const Branch &curve);
 
   private:
+    /// Of a curve that was confirmed.
+    struct Level {
+        double force = 0, change = 0;
+    };
+
     /// What the model is made from.
     struct Needs {
         Matrix motions; // of the whole basis, mean parts among them, as shares of the largest
@@ -86,6 +91,9 @@ class CurveCompression {
     void take(const BranchPoint &point, Matrix &motions) const;
     bool agrees(const BranchPoint &on_curve, const std::shared_ptr<const ReducedModel> &model,
                 const BranchPoint &there, double amplitude_on_curve, double error) const;
+    void compare_with_whole(const Branch &curve);
+    bool grow_to(double enough);
+    bool find_on_whole(const Branch &curve, std::int64_t point, BranchPoint &found);
     bool agrees_on_whole(const Branch &curve, std::int64_t point);
     bool agrees_on_better(const Branch &curve, std::int64_t point);
     double amplitude(const std::shared_ptr<const ReducedModel> &model, const BranchPoint &point) const;
@@ -105,8 +113,9 @@ class CurveCompression {
     double change_ = INFINITY; // of the highest motion, from the curve to better_, relative
     std::int64_t top_ = 0;     // which of the curve's points that is
     BranchPoint top_on_better_;
-    // While the curve is confirmed, for they know its contact sets.
+    // They know the contact sets of the curves before.
     std::shared_ptr<const OrbitEquations> on_whole_;
+    Level last_;           // of force; none: the model has changed since
     std::string doubtful_; // where stability is not as on the curve; empty: nowhere
 };
 

@@ -183,12 +183,19 @@ class Audit {
             const std::string growth = power == 0 ? std::string() : format(" times omega^%d", power);
             add(0, size, format("harmonic excitation, norm %g%s", size, growth.c_str()));
         }
-        double wall = 0;
-        for (const auto &[harmonic, part] : m_.contact().motion)
-            for (std::int64_t i = 0; harmonic > 0 && i < m_.n_pairs(); ++i)
-                wall = std::max(wall, std::abs(Contact::moved(part, i)));
-        if (wall > 0) add(0, wall, format("gaps that move, by up to %g in one harmonic", wall));
-        if (!(wall > 0 || is_driven))
+        std::map<int, double> walls; // by the power of the frequency
+        for (const auto &[part, gaps] : m_.contact().motion)
+            for (std::int64_t i = 0; part.harmonic > 0 && i < m_.n_pairs(); ++i) {
+                double &most = walls[part.power];
+                most = std::max(most, std::abs(Contact::moved(gaps, i)));
+            }
+        for (const auto &[power, wall] : walls) {
+            if (!(wall > 0)) continue;
+            is_driven = true;
+            const std::string growth = power == 0 ? std::string() : format(" times omega^%d", power);
+            add(0, wall, format("gaps that move, by up to %g%s in one harmonic", wall, growth.c_str()));
+        }
+        if (!is_driven)
             add(1, 0,
                 format("no harmonic excitation on the free DOFs: the response is zero; %s",
                        m_.excitation_on_supports() > 0

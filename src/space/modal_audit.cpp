@@ -190,9 +190,9 @@ class ModalAudit {
                 }
                 amplitude[i] += d.part.growth(base) * std::abs(u);
             }
-        for (const auto &[harmonic, part] : m_.contact().motion)
-            for (std::int64_t i = 0; harmonic > 0 && i < m_.n_pairs(); ++i)
-                amplitude[i] += std::abs(Contact::moved(part, i));
+        for (const auto &[part, gaps] : m_.contact().motion)
+            for (std::int64_t i = 0; part.harmonic > 0 && i < m_.n_pairs(); ++i)
+                amplitude[i] += part.growth(base) * std::abs(Contact::moved(gaps, i));
         return amplitude;
     }
 

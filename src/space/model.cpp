@@ -55,14 +55,7 @@ KnownMotion Model::known_motion(std::int64_t output, double omega, double scale)
 // With the base, beside what moves them anyhow.
 void Model::move_gaps() {
     for (const RowMotion &base : row_motions()) {
-        if (base.part.power != 0)
-            throw Error(
-                status::argument,
-                "the base motion strains the structure or moves it against a wall, so that the gaps of "
-                "pairs move with the displacement of the base, and its velocity or acceleration is "
-                "prescribed: prescribe the displacement, or move as one rigid body all that touches")
-                .argument("quantity");
-        GapHarmonic &gaps = contact_.motion[base.part.harmonic];
+        GapHarmonic &gaps = contact_.motion[base.part];
         gaps.real.resize(static_cast<std::size_t>(n_pairs()), 0.0);
         gaps.imag.resize(static_cast<std::size_t>(n_pairs()), 0.0);
         for (std::int64_t i = 0; i < n_pairs(); ++i) {

@@ -46,19 +46,20 @@ template <class Bytes, class C> void pass_contact(Bytes &bytes, C &contact) {
     bytes(contact.stiffness);
     bytes(contact.initial_gap);
     require_length(bytes, contact.initial_gap, contact.n_pairs());
-    const std::int64_t n = bytes.size(static_cast<std::int64_t>(contact.motion.size()), 24);
+    const std::int64_t n = bytes.size(static_cast<std::int64_t>(contact.motion.size()), 32);
     auto at = contact.motion.begin();
     for (std::int64_t k = 0; k < n; ++k) {
-        int harmonic = 0;
+        LoadPart part(0);
         GapHarmonic gaps;
-        if constexpr (!Bytes::reads) harmonic = at->first, gaps = (at++)->second;
-        bytes.integer(harmonic, 0, 1 << 20);
+        if constexpr (!Bytes::reads) part = at->first, gaps = (at++)->second;
+        bytes.integer(part.harmonic, 0, 1 << 20);
+        bytes.integer(part.power, -2, 0);
         bytes(gaps.real);
         bytes(gaps.imag);
         bytes.require(static_cast<std::int64_t>(gaps.real.size()) <= contact.n_pairs() &&
                           static_cast<std::int64_t>(gaps.imag.size()) <= contact.n_pairs(),
                       "walls of more pairs than there are");
-        if constexpr (Bytes::reads) contact.motion[harmonic] = std::move(gaps);
+        if constexpr (Bytes::reads) contact.motion[part] = std::move(gaps);
     }
 }
 

@@ -166,6 +166,31 @@ bool is_loaded_at_rest(const Model &model) {
 
 namespace {
 
+// Where nothing holds the structure, the space has (K + sigma M)^-1 of loads, exact where the contact sees
+// them. The rest of the displacement follows from the contact forces, but for rigid-body motion, which stays.
+void follow_forces(const Model &model, const vector<double> &forces, Field &q) {
+    constexpr int most_corrections = 6;
+    constexpr double falls = 0.1, rounding = 1e-14; // of the displacement
+    if (model.shift() == 0 || !model.is_whole()) return;
+    Matrix n(model.n_pairs(), 1);
+    for (std::int64_t i = 0; i < model.n_pairs(); ++i) n(i, 0) = -forces[static_cast<std::size_t>(i)];
+    Field load = model.gap_rows().forces(n);
+    if (model.has_preload()) add(1, model.preload(), load);
+    const Field momenta = model.mass_times(model.rigid_modes());
+    double part = 1;
+    for (int k = 0; k < most_corrections && part > rounding; ++k) {
+        Field left = model.stiffness_times(q);
+        left.scale({-1.0});
+        add(1, load, left);
+        model.solve(left);
+        add_combination(-1.0, model.rigid_modes(), projected(momenta, left), left);
+        const double size = column_norms(q)[0], now = size > 0 ? column_norms(left)[0] / size : 0;
+        if (!(now > model.uncertainty() && now < falls * part)) return; // rounding of the matrices
+        add(1, left, q);
+        part = now;
+    }
+}
+
 RestState solve_rest(const Space &space) {
     const Model &model = *space.model;
     RestState rest;
@@ -185,6 +210,7 @@ RestState solve_rest(const Space &space) {
     }
     rest.put_forces(model);
     rest.displacement = combine(space.vectors, rest.coordinates);
+    follow_forces(model, rest.force, rest.displacement);
     return rest;
 }
 

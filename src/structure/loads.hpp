@@ -1,27 +1,10 @@
 // Loads on a structure, harmonic by harmonic.
 #pragma once
+#include "linalg/load_part.hpp"
 #include "structure/field.hpp"
 #include <map>
 
 namespace plm {
-
-/// Which part of an excitation a load is: of one harmonic, growing with a power of the excitation's frequency
-/// omega (rad/s). An unbalance m e omega^2 has the power 2 and the load m e.
-struct LoadPart {
-    int harmonic = 0, power = 0;
-    LoadPart(int h, int p = 0) : harmonic(h), power(p) {}
-    bool operator<(const LoadPart &other) const {
-        return harmonic != other.harmonic ? harmonic < other.harmonic : power < other.power;
-    }
-    /// omega^power, and its derivative.
-    double growth(double omega) const {
-        double g = 1;
-        for (int k = 0; k < power; ++k) g *= omega;
-        for (int k = 0; k > power; --k) g /= omega;
-        return g;
-    }
-    double growth_rate(double omega) const { return power == 0 ? 0.0 : power * growth(omega) / omega; }
-};
 
 /// Complex amplitude of one part, F(t) = omega^power Re(F exp(i h omega t)), in whatever coordinates;
 /// `imag` is empty for h = 0.

@@ -156,9 +156,13 @@ void jacobians_match_with_a_static_basis(void **) {
     check_derivatives(with_static_basis());
 }
 
-// One in the harmonic of the force, one in another, and a mean.
+// One in the harmonic of the force, one in another, and a mean; of which velocity and acceleration are given.
 std::shared_ptr<ReducedModel> with_moving_walls(std::shared_ptr<ReducedModel> m) {
-    m->contact.motion = {{0, {{0.01}, {}}}, {1, {{0.04, -0.03}, {0.02, 0.05}}}, {3, {{0, 0.01}, {0.015}}}};
+    m->contact.motion = {{0, {{0.01}, {}}},
+                         {1, {{0.04, -0.03}, {0.02, 0.05}}},
+                         {3, {{0, 0.01}, {0.015}}},
+                         {{1, -1}, {{0.01, 0.02}, {-0.02, 0.01}}},
+                         {{2, -2}, {{0.015, 0}, {0.01, 0.005}}}};
     return m;
 }
 void jacobians_match_with_moving_walls(void **) {
@@ -188,8 +192,17 @@ void loads_are_those_of_their_frequency(void **) {
     constexpr double omega = 0.7;
     for (NonlinearUnknowns unknowns : {NonlinearUnknowns::modal, NonlinearUnknowns::gaps})
         for (std::int64_t multiple : {1, 2}) {
-            const auto growing = with_growing_loads(chain_model()), still = chain_model();
+            const auto growing = with_moving_walls(with_growing_loads(chain_model())), still = chain_model();
             still->excitation.clear();
+            for (const auto &[part, gaps] : growing->contact.motion) {
+                plm::GapHarmonic &sum = still->contact.motion[part.harmonic];
+                for (const auto &[from, to] :
+                     {std::pair(&gaps.real, &sum.real), std::pair(&gaps.imag, &sum.imag)}) {
+                    to->resize(std::max(to->size(), from->size()), 0.0);
+                    for (std::size_t i = 0; i < from->size(); ++i)
+                        (*to)[i] += std::pow(omega, part.power) * (*from)[i];
+                }
+            }
             for (const auto &[part, load] : growing->excitation) {
                 plm::HarmonicLoad &sum = still->excitation[part.harmonic];
                 sum.real.resize(load.real.size(), 0.0), sum.imag.resize(load.imag.size(), 0.0);

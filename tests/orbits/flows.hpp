@@ -25,9 +25,13 @@ inline std::shared_ptr<const plm::FlowModel> flow_model(const exact::Structure &
     return std::make_shared<plm::FlowModel>(reduced);
 }
 
-/// Of two pairs' walls: of the harmonic of the excitation and of one that it does not have.
+/// Of two pairs' walls: of the harmonic of the excitation and of one that it does not have, and one of which
+/// the acceleration is given.
 inline plm::GapMotion moving_walls() {
-    return {{0, {{0.01}, {}}}, {1, {{0.04, -0.03}, {0.02, 0.05}}}, {3, {{0, 0.01}, {0.015}}}};
+    return {{0, {{0.01}, {}}},
+            {1, {{0.04, -0.03}, {0.02, 0.05}}},
+            {3, {{0, 0.01}, {0.015}}},
+            {{2, -2}, {{0.003}, {0.002, 0.004}}}};
 }
 
 /// A chain of four masses with pairs on two of them.
