@@ -3,7 +3,7 @@
 !
 !     code = plm_model_set_tall_operations(model%handle, c_funloc(tall_operation), c_loc(host))
 module tall_hosts
-    use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
+    use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int32_t, c_int64_t, c_ptr
     use, intrinsic :: iso_fortran_env, only: int64, real64
     use plm_constants
     implicit none
@@ -34,9 +34,10 @@ contains
         type(tall_host), pointer :: host
         integer :: a(7), k
         call c_f_pointer(user, host)
+        code = merge(0_c_int32_t, 1_c_int32_t, c_associated(ctx))
+        if (code /= 0) return
         if (.not. allocated(host%things)) allocate (host%things(0))
         host%calls = host%calls + 1
-        code = 0
         select case (operation)
         case (PLM_TALL_END)
             host%ends = host%ends + 1
@@ -53,7 +54,7 @@ contains
             call copy(host, number(1), int(number(2)), found(host, number(3)), int(number(5:4 + number(4))))
         case (PLM_TALL_COMBINE)
             a(2:7) = int(number(2:7))
-            call combine(host, number(1), number(4), a, factor(1:2), small_in(1:merge(a(6), a(6)*a(3), a(7) /= 0)))
+            call combine(host, number(1), number(4), a, factor(1:2), small_in)
         case (PLM_TALL_GRAM)
             call gram(columns(host, number(1), number(2), number(3)), columns(host, number(4), number(5), number(6)), &
                 number(7) /= 0, number(8) /= 0, small_out)
@@ -166,19 +167,20 @@ contains
         type(tall_host), intent(inout) :: host
         integer(c_int64_t), intent(in) :: x_handle, y_handle
         integer, intent(in) :: a(7)
-        real(real64), intent(in) :: factor(2), s(:)
+        real(real64), intent(in) :: factor(2)
+        real(real64), intent(in), optional :: s(*)
         real(real64), pointer :: x(:, :)
-        real(real64), allocatable :: y(:, :), sum(:, :)
+        real(real64) :: y(size(host%k, 1), a(6)), sum(size(host%k, 1), a(3))
         integer :: j
         y = columns(host, y_handle, int(a(5), int64), int(a(6), int64))
-        if (a(7) == 0) then
-            sum = matmul(y, reshape(s, [a(6), a(3)]))
-        else
-            allocate (sum(size(y, 1), a(3)), source=0.0_real64)
-            do j = 1, min(a(3), a(6))
+        sum = 0
+        do j = 1, merge(a(3), 0, a(6) > 0)
+            if (a(7) == 0) then
+                sum(:, j) = matmul(y, s(a(6)*(j - 1) + 1:a(6)*j))
+            else
                 sum(:, j) = y(:, j)*s(j)
-            end do
-        end if
+            end if
+        end do
         x => written(host, x_handle, a(2), a(3))
         if (factor(1) == 0) x = 0
         x = factor(1)*x + factor(2)*sum
@@ -209,12 +211,15 @@ contains
         logical, intent(in) :: reading
         real(c_double), intent(in), optional :: factor(*), small_in(*)
         real(c_double), intent(inout), optional :: small_out(*)
-        real(real64), allocatable :: x(:, :), in(:, :)
-        integer, allocatable :: dof(:)
+        real(real64) :: x(size(host%k, 1), number(3))
+        real(real64), allocatable :: in(:, :)
+        integer :: dof(merge(size(host%k, 1, int64), number(4), number(4) < 0))
         integer :: i, j
         x = columns(host, number(1), number(2), number(3))
-        dof = [(i, i=1, size(x, 1))]
-        if (number(4) >= 0) dof = int(number(5:4 + number(4))) + 1
+        do i = 1, size(dof)
+            dof(i) = i
+            if (number(4) >= 0) dof(i) = int(number(4 + i)) + 1
+        end do
         if (reading) then
             small_out(1:size(dof)*size(x, 2)) = reshape(x(dof, :), [size(dof)*size(x, 2)])
             return
@@ -251,7 +256,8 @@ contains
     subroutine facts(host, out)
         type(tall_host), intent(in) :: host
         real(real64), intent(inout) :: out(16)
-        real(real64), allocatable :: m(:), k(:), ratio(:)
+        real(real64), dimension(size(host%k, 1)) :: m, k
+        real(real64), allocatable :: ratio(:)
         logical :: coupled(size(host%k, 1))
         integer :: i, n
         n = size(host%k, 1)
