@@ -193,7 +193,8 @@ int main(int argc, char **argv) {
         MPI_Comm comm;
         MPI_Comm_split(MPI_COMM_WORLD, rank < ranks ? 0 : MPI_UNDEFINED, rank, &comm);
         if (rank >= ranks) continue;
-        for (int k = 0; k < 4; k++) over(&systems[k], ranks, comm, &one[k], 1e-9);
+        for (int k = 0; k < 4; k++) /* a free rod has the digits of responses beside a soft shift */
+            over(&systems[k], ranks, comm, &one[k], k == 1 ? 1e-7 : 1e-9);
         MPI_Comm_free(&comm);
     }
     MPI_Allreduce(&failures, &all, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
