@@ -3,8 +3,9 @@
 #
 #     plm_add_fortran(<target>)      static library with the module plm (and plm_c)
 #     plm_add_fortran77(<target>)    static library with the FORTRAN 77 subroutines; the target's include folder has plmf.inc
+#     plm_add_fortran_mpi(<target>)  static library with the module plm_mpi, for ranks of MPI; links to plm::fortran and plm::mpi
 #
-# Both link to plm::plm, or to PLM_FORTRAN_LINKS if that is set, and are compiled by CMAKE_Fortran_FLAGS.
+# The others link to plm::plm, or to PLM_FORTRAN_LINKS if that is set. All are compiled by CMAKE_Fortran_FLAGS.
 set(PLM_FORTRAN_SOURCE_DIR ${CMAKE_CURRENT_LIST_DIR})
 set(PLM_FORTRAN_MODULE_SOURCES plm_c.f90 plm_errors.f90 plm_context.f90 plm_keys.f90 plm_methods.f90
     plm_model.f90 plm_branch.f90 plm_reduction.f90 plm_response.f90 plm_motion.f90 plm_study.f90 plm_facts.f90 plm.f90)
@@ -31,4 +32,9 @@ endfunction()
 
 function(plm_add_fortran77 target)
     plm_fortran_library(${target} ${PLM_FORTRAN_77_SOURCES})
+endfunction()
+
+function(plm_add_fortran_mpi target)
+    set(PLM_FORTRAN_LINKS plm::fortran plm::mpi)
+    plm_fortran_library(${target} plm_mpi_c.f90 plm_mpi.f90)
 endfunction()

@@ -8,7 +8,7 @@ module plm_errors
     use plm_c, only: plm_context_get_error_text, plm_context_get_error_info, plm_status_text
     implicit none
     private
-    public :: finish, refuse, c_text, f_text
+    public :: finish, finish_with, refuse, c_text, f_text
 
 contains
 
@@ -18,13 +18,26 @@ contains
         integer(plm_status), intent(in) :: status
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
+        if (status == PLM_OK) then
+            if (present(stat)) stat = int(status)
+        else
+            call finish_with(error_text(context, status), status, stat, errmsg)
+        end if
+    end subroutine finish
+
+    ! The same with the words of another handle than a context.
+    subroutine finish_with(text, status, stat, errmsg)
+        character(len=*), intent(in) :: text
+        integer(plm_status), intent(in) :: status
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
         if (present(stat)) stat = int(status)
         if (status == PLM_OK) return
-        if (present(errmsg)) errmsg = error_text(context, status)
+        if (present(errmsg)) errmsg = text
         if (present(stat)) return
-        if (status < 0) call stop_with(error_text(context, status))
-        write (error_unit, '(a)') 'libplm: '//error_text(context, status)
-    end subroutine finish
+        if (status < 0) call stop_with(text)
+        write (error_unit, '(a)') 'libplm: '//text
+    end subroutine finish_with
 
     ! The same for an argument that this layer does not pass on.
     subroutine refuse(text, stat, errmsg)

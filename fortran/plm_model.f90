@@ -1,6 +1,6 @@
 ! plm_model.f90: the finite-element model: matrices, supports, contact pairs, loads. DOFs count from 1.
 module plm_models
-    use, intrinsic :: iso_c_binding, only: c_char, c_funloc, c_int32_t, c_loc, c_null_funptr, c_null_ptr
+    use, intrinsic :: iso_c_binding, only: c_char, c_funloc, c_int32_t, c_loc, c_null_funptr, c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: int32, int64, real64
     use plm_constants
     use plm_c
@@ -17,6 +17,7 @@ module plm_models
         type(recoverer_box), pointer, private :: box => null()
     contains
         procedure :: create
+        procedure :: adopt
         procedure :: destroy
         procedure, private :: set_csc_int32, set_csc_int64, set_csr_int32, set_csr_int64
         procedure, private :: set_triplets_int32, set_triplets_int64
@@ -80,6 +81,18 @@ contains
         self%n_dof = n_dof
         call finish(self%context, plm_model_create(self%context, int(n_dof, int64), self%handle), stat, errmsg)
     end subroutine create
+
+    ! A model that a C function has made in the context.
+    subroutine adopt(self, context, handle, n_dof)
+        class(plm_model), intent(inout) :: self
+        type(plm_context), intent(in) :: context
+        type(c_ptr), intent(in) :: handle
+        integer, intent(in) :: n_dof
+        self%context = context%handle
+        self%kind = PLM_KIND_MODEL
+        self%handle = handle
+        self%n_dof = n_dof
+    end subroutine adopt
 
     subroutine destroy(self, stat, errmsg)
         class(plm_model), intent(inout) :: self

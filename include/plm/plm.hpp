@@ -663,6 +663,9 @@ class Model : public detail::WithOptions<Model, plm_model> {
     Model(const Context &context, std::int64_t n_dof) : WithOptions(context.state(), nullptr), n_dof_(n_dof) {
         state_->check(plm_model_create(state_->context, n_dof, &handle_), "plm_model_create");
     }
+    /// Takes over a model that a C function has made in the context.
+    Model(const Context &context, plm_model *made, std::int64_t n_dof)
+        : WithOptions(context.state(), made), n_dof_(n_dof) {}
     std::int64_t n_dof() const { return n_dof_; }
 
     /// which: PLM_MASS, PLM_STIFFNESS or PLM_DAMPING.

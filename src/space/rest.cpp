@@ -1,4 +1,5 @@
 #include "space/rest.hpp"
+#include "linalg/lapack.hpp"
 #include "space/linear_contact.hpp"
 #include <algorithm>
 #include <cmath>
@@ -103,7 +104,30 @@ class RestInSpace final : public RestEquations {
         for (std::size_t j = 0; j < d_.size(); ++j) eta_[j] += part * d_[j];
     }
 
-    vector<double> &coordinates() { return eta_; }
+    /// Once found: without what moves in directions that neither supports nor pairs hold. No energy tells it;
+    /// the fictitious stiffness makes rounding of the load large there. None is the rest nearest to the
+    /// unloaded state.
+    vector<double> settled_coordinates(const vector<double> &u) {
+        vector<std::int64_t> rigid;
+        for (std::size_t j = 0; j < eta_.size(); ++j)
+            if (p_.lambda[j] == 0) rigid.push_back(static_cast<std::int64_t>(j));
+        const std::int64_t n = static_cast<std::int64_t>(rigid.size());
+        const vector<double> k = p_.contact.tangents(u);
+        Matrix held(n, n);
+        for (std::int64_t b = 0; b < n; ++b)
+            for (std::int64_t a = 0; a < n; ++a)
+                for (std::int64_t i = 0; i < p_.gap.rows(); ++i)
+                    held(a, b) += p_.gap(i, rigid[a]) * k[i] * p_.gap(i, rigid[b]);
+        if (n == 0) return std::move(eta_);
+        const SymmetricEigen e = symmetric_eigen(held);
+        for (std::int64_t d = 0; d < n; ++d) {
+            if (e.values[d] > pivot_[rigid[0]]) continue;
+            double along = 0;
+            for (std::int64_t a = 0; a < n; ++a) along += e.vectors(a, d) * eta_[rigid[a]];
+            for (std::int64_t a = 0; a < n; ++a) eta_[rigid[a]] -= e.vectors(a, d) * along;
+        }
+        return std::move(eta_);
+    }
 
   private:
     // The force that the fictitious stiffness of rigid-body coordinates would have to carry in the step:
@@ -149,7 +173,7 @@ StaticState solve_static(const StaticProblem &p) {
     RestInSpace equations(p);
     StaticState state;
     state.iterations = find_rest(equations, p.contact, state.penetration);
-    state.coordinates = std::move(equations.coordinates());
+    state.coordinates = equations.settled_coordinates(state.penetration);
     return state;
 }
 

@@ -1,6 +1,7 @@
 // The count of negative eigenvalues where the root of the elimination tree is so large that MUMPS would leave
-// it to ScaLAPACK, whose factors with exchanged rows do not tell them. A full matrix is nothing but a root;
-// its diagonal next to vanishes, and its eigenvalues are chosen.
+// it to ScaLAPACK, whose factors with exchanged rows do not tell them. The root is a full matrix of chosen
+// eigenvalues whose diagonal next to vanishes. MUMPS does so only where branches hang on the root: here four
+// sparse grids, by a congruence, so that the inertia of all is that of its parts.
 #include "tests/mpi/grid.hpp"
 #include <cstdio>
 #include <cstdlib>
@@ -10,23 +11,57 @@ using namespace plm::mpi::test;
 
 namespace {
 
-/// H P H with the reflection H = I - 2 v v^T, v alike everywhere, and pairs of DOFs [0 d; d 0] in P:
-/// eigenvalues
-/// +-d, d = 2/n, 4/n, ... 1; unit masses. DOFs are owned, and rows assembled, by slices.
-Parts slice(std::int64_t n, int rank, int size) {
-    Parts p;
-    const auto d = [&](std::int64_t i) {
-        return static_cast<double>(i / 2 + 1) / static_cast<double>(n / 2);
+constexpr std::int64_t side = 24, branches = 4; // nodes along a grid; grids
+
+/// A = H P H with the reflection H = I - 2 v v^T, v alike everywhere, and pairs of DOFs [0 d; d 0] in P:
+/// eigenvalues +-d, d = 2/n, 4/n, ... 1; unit masses.
+double full_entry(std::int64_t n, std::int64_t i, std::int64_t j) {
+    const auto d = [&](std::int64_t k) {
+        return static_cast<double>(k / 2 + 1) / static_cast<double>(n / 2);
     };
     const double share = 1 / static_cast<double>(n), energy = 0.5 * (1 + 2 * share); // v_i v_j, v^T P v
-    for (std::int64_t i = 0; i < n; ++i) {
-        if (i * size / n != rank) continue;
-        p.owned.push_back(i), p.matrices.entries[0].push_back({i, i, 1, 0});
-        for (std::int64_t j = 0; j <= i; ++j)
-            p.matrices.entries[1].push_back(
-                {i, j, share * (4 * energy - 2 * (d(i) + d(j))) + (i == j + 1 && i % 2 == 1 ? d(i) : 0), 0});
+    return share * (4 * energy - 2 * (d(i) + d(j))) + (i == j + 1 && i % 2 == 1 ? d(i) : 0);
+}
+
+/// K = [A + L^T D L, L^T D; D L, D], where D is a grid of springs to the ground and to neighbours, with no
+/// mass, and L has ones where the first nodes of a grid meet DOFs of A. DOFs of A come first.
+struct Builder {
+    std::int64_t n;
+    Parts p;
+    void add(std::int64_t i, std::int64_t j, double v) {
+        p.matrices.entries[1].push_back({std::max(i, j), std::min(i, j), v, 0});
     }
-    return p;
+    /// Entry (i, j) of D, i >= j, of a branch; what it brings to each block of K.
+    void spread(std::int64_t branch, std::int64_t i, std::int64_t j, double v) {
+        const std::int64_t first = n + branch * side * side;
+        const auto met = [&](std::int64_t k) { // the DOF of A that node k meets, or none
+            return k < n / branches ? branch * (n / branches) + k : -1;
+        };
+        add(first + i, first + j, v);
+        if (met(j) >= 0) add(first + i, met(j), v);
+        if (i != j && met(i) >= 0) add(first + j, met(i), v);
+        if (met(i) >= 0 && met(j) >= 0) add(met(i), met(j), v);
+    }
+};
+
+/// DOFs are owned, and rows assembled, by slices.
+Parts slice(std::int64_t n, int rank, int size) {
+    Builder b{n, {}};
+    const std::int64_t all = n + branches * side * side;
+    for (std::int64_t i = 0; i < all; ++i) {
+        if (i * size / all != rank) continue;
+        b.p.owned.push_back(i);
+        if (i < n) {
+            b.p.matrices.entries[0].push_back({i, i, 1, 0});
+            for (std::int64_t j = 0; j <= i; ++j) b.add(i, j, full_entry(n, i, j));
+        } else {
+            const std::int64_t branch = (i - n) / (side * side), node = (i - n) % (side * side);
+            b.spread(branch, node, node, 4.5);
+            if (node % side > 0) b.spread(branch, node, node - 1, -1);
+            if (node >= side) b.spread(branch, node, node - side, -1);
+        }
+    }
+    return b.p;
 }
 
 } // namespace
@@ -36,7 +71,7 @@ int main(int argc, char **argv) {
     int failures = 0;
     const std::int64_t n = argc > 1 ? std::atoi(argv[1]) : 1600;
     Service s;
-    s.start(MPI_COMM_WORLD, n, {});
+    s.start(MPI_COMM_WORLD, n + branches * side * side, {});
     s.parts = slice(n, s.team().rank(), s.team().size());
     failures += lead(s, [&] {
         Parts all;

@@ -62,8 +62,9 @@ __all__ += _constants
 
 
 def __getattr__(name):
-    """matplotlib is loaded with the first use of plm.plot, what reads and writes files with that of plm.fe."""
-    if name in ("plot", "fe"):
+    """matplotlib is loaded with the first use of plm.plot, what reads and writes files with that of plm.fe, libplm_mpi with that of
+    plm.mpi."""
+    if name in ("plot", "fe", "mpi"):
         return importlib.import_module(f".{name}", __name__)
     raise AttributeError(f"module 'plm' has no attribute {name!r}")
 

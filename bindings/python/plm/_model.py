@@ -63,6 +63,14 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
                 self._set_matrix(which, matrix, part)
         self.set_options(options)
 
+    @classmethod
+    def _adopted(cls, context):
+        """An object whose handle another function than plm_model_create will write."""
+        model = cls.__new__(cls)
+        Handle.__init__(model, context)
+        model._built, model._borrowed = False, {}
+        return model
+
     # ---- matrices, damping, supports ----
 
     def set_mass(self, matrix, part="full"):
