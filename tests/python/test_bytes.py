@@ -55,13 +55,13 @@ def same(one, other):
 
 class Pieces(unittest.TestCase):
     def test_pieces_are_the_bytes(self):
-        basis = models.basis()
+        basis = models.pressed_chain()  # of more bytes than one piece has
         pieces, table = [], []
         basis.write_to(pieces.append)
         self.assertEqual(b"".join(pieces), basis.to_bytes())
         self.assertGreater(len(pieces), 1)
         self.assertLessEqual(max(map(len, pieces)), 65536)
-        curve = plm.Hbm(basis, n_harmonics=3).sweep()
+        curve = plm.Hbm(models.basis(), n_harmonics=3).sweep()
         curve.write_csv_to(table.append, models.WATCHED)
         rows = list(csv.DictReader(b"".join(table).decode("ascii").splitlines()))
         numpy.testing.assert_array_equal([float(row["amplitude"]) for row in rows], curve.amplitude(models.WATCHED))
