@@ -33,7 +33,7 @@ def lines():
              "*CONTACT PAIR, INTERACTION=TOUCH, TYPE=SURFACE TO SURFACE", "FBELOW, FABOVE",
              "*BOUNDARY", "CLAMP, 1, 3"]
     return deck + ["*STEP", "*STATIC", "*CLOAD", f"{upper.node(3, 1, 2)}, 3, -40.", f"{upper.node(3, 2, 2)}, 3, -40.", "*END STEP",
-                   "*STEP", "*STEADY STATE DYNAMICS", "100., 2000., 20, 3.", "*CLOAD", "5001, 3, 0.5", "*END STEP"]
+                   "*STEP", "*STEADY STATE DYNAMICS", "100., 2000., 20, 3.", "*CLOAD", "5001, 3, 0.2", "*END STEP"]
 
 
 if __name__ == "__main__":
