@@ -18,7 +18,7 @@
 ! There are no finalizers: what is not destroyed goes with its context. A copy by assignment is the same object.
 module plm
     use plm_constants
-    use plm_contexts, only: plm_context, plm_logger, plm_watcher, plm_recoverer
+    use plm_contexts, only: plm_context, plm_logger, plm_watcher, plm_recoverer, plm_writer
     use plm_models, only: plm_model
     use plm_reductions, only: plm_sampler, plm_basis
     use plm_branches, only: plm_branch

@@ -1,9 +1,10 @@
 ! plm_branch.f90: the response curves that harmonic balance follows. DOFs, points and pairs count from 1.
 module plm_branches
-    use, intrinsic :: iso_c_binding, only: c_char, c_ptr, c_int32_t, c_loc, c_null_char, c_null_ptr
+    use, intrinsic :: iso_c_binding, only: c_char, c_ptr, c_funloc, c_int32_t, c_loc, c_null_char, c_null_ptr
     use, intrinsic :: iso_fortran_env, only: int8, int64, real64
     use plm_constants
     use plm_c
+    use plm_contexts, only: plm_writer, writer_box, forward_bytes
     use plm_errors, only: finish, f_text
     use plm_methods, only: plm_branch_methods
     use plm_models, only: plm_model
@@ -22,7 +23,9 @@ module plm_branches
         procedure :: energy
         procedure :: multipliers
         procedure :: to_bytes => branch_to_bytes
+        procedure :: write_to => branch_write_to
         procedure :: write_csv
+        procedure :: write_csv_to
         procedure :: describe
     end type plm_branch
 
@@ -64,6 +67,17 @@ contains
         call finish(self%context, status, stat, errmsg)
     end subroutine branch_to_bytes
 
+    ! The same bytes to the writer, piece after piece.
+    subroutine branch_write_to(self, writer, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        class(plm_writer), intent(inout), target :: writer
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(writer_box), target :: box
+        box%writer => writer
+        call finish(self%context, plm_branch_write_to(self%handle, c_funloc(forward_bytes), c_loc(box)), stat, errmsg)
+    end subroutine branch_write_to
+
     ! The curve as a file of comma-separated text, replaced as a whole.
     subroutine write_csv(self, path, dof, measure, harmonic, stat, errmsg)
         class(plm_branch), intent(in) :: self
@@ -76,6 +90,21 @@ contains
         call finish(self%context, plm_branch_write_csv(self%handle, int(dof, int64) - 1, measure_of(measure), &
             harmonic_of(harmonic), trim(path)//c_null_char), stat, errmsg)
     end subroutine write_csv
+
+    ! The same text to the writer.
+    subroutine write_csv_to(self, writer, dof, measure, harmonic, stat, errmsg)
+        class(plm_branch), intent(in) :: self
+        class(plm_writer), intent(inout), target :: writer
+        integer, intent(in) :: dof
+        integer(plm_status), intent(in), optional :: measure
+        integer, intent(in), optional :: harmonic
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(writer_box), target :: box
+        box%writer => writer
+        call finish(self%context, plm_branch_write_csv_to(self%handle, int(dof, int64) - 1, measure_of(measure), &
+            harmonic_of(harmonic), c_funloc(forward_bytes), c_loc(box)), stat, errmsg)
+    end subroutine write_csv_to
 
     ! A page of text about the curve: peak, stability, error, warnings and the rest; lines end with new_line('a').
     subroutine describe(self, value, stat, errmsg)

@@ -218,6 +218,15 @@ module plm_c
             type(c_ptr), value :: user
             integer(c_int32_t) :: code
         end function plm_recover_fn
+        function plm_write_fn(ctx, n, bytes, user) bind(c) result(code)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: ctx
+            integer(c_int64_t), value :: n
+            type(c_ptr), value :: bytes
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: code
+        end function plm_write_fn
         function plm_tall_fn(ctx, operation, number, factor, small_in, small_out, user) bind(c) result(code)
             import :: c_double, c_int32_t, c_int64_t, c_ptr
             implicit none
@@ -1313,6 +1322,14 @@ module plm_c
             integer(c_int64_t), intent(inout) :: needed
             integer(plm_status) :: code
         end function plm_basis_write
+        function plm_basis_write_to(basis, fn, user) bind(c) result(code)
+            import :: c_funptr, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: basis
+            type(c_funptr), value :: fn
+            type(c_ptr), value :: user
+            integer(plm_status) :: code
+        end function plm_basis_write_to
         function plm_basis_read(ctx, n, bytes, basis) bind(c) result(code)
             import :: c_int64_t, c_ptr, plm_status
             implicit none
@@ -1702,6 +1719,14 @@ module plm_c
             integer(c_int64_t), intent(inout) :: needed
             integer(plm_status) :: code
         end function plm_branch_write
+        function plm_branch_write_to(branch, fn, user) bind(c) result(code)
+            import :: c_funptr, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            type(c_funptr), value :: fn
+            type(c_ptr), value :: user
+            integer(plm_status) :: code
+        end function plm_branch_write_to
         function plm_branch_read(basis, n, bytes, branch) bind(c) result(code)
             import :: c_int64_t, c_ptr, plm_status
             implicit none
@@ -1721,6 +1746,17 @@ module plm_c
             character(kind=c_char), intent(in) :: path(*)
             integer(plm_status) :: code
         end function plm_branch_write_csv
+        function plm_branch_write_csv_to(branch, dof, measure, harmonic, fn, user) bind(c) result(code)
+            import :: c_funptr, c_int32_t, c_int64_t, c_ptr, plm_status
+            implicit none
+            type(c_ptr), value :: branch
+            integer(c_int64_t), value :: dof
+            integer(c_int32_t), value :: measure
+            integer(c_int32_t), value :: harmonic
+            type(c_funptr), value :: fn
+            type(c_ptr), value :: user
+            integer(plm_status) :: code
+        end function plm_branch_write_csv_to
         function plm_branch_describe(branch, capacity, buffer, needed) bind(c) result(code)
             import :: c_char, c_int64_t, c_ptr, plm_status
             implicit none

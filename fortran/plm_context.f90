@@ -1,8 +1,9 @@
 ! plm_context.f90: the context, the host's listeners on it, and what else of the host is called.
 module plm_contexts
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_null_funptr, c_char, c_double, c_int32_t, c_int64_t, &
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_null_ptr, c_null_funptr, c_char, c_double, c_int8_t, c_int32_t, &
+        c_int64_t, &
         c_null_char, c_loc, c_funloc, c_f_pointer, c_associated
-    use, intrinsic :: iso_fortran_env, only: real64
+    use, intrinsic :: iso_fortran_env, only: int8, real64
     use plm_constants
     use plm_c, only: plm_context_create, plm_context_destroy, plm_context_set_log, plm_context_set_progress, &
         plm_context_set_effort, &
@@ -12,6 +13,7 @@ module plm_contexts
     implicit none
     private
     public :: plm_context, plm_logger, plm_watcher, plm_recoverer, recoverer_box, forward_recovery
+    public :: plm_writer, writer_box, forward_bytes
 
     ! Extend it to receive the library's remarks. It must not call the library.
     type, abstract :: plm_logger
@@ -31,6 +33,13 @@ module plm_contexts
     contains
         procedure(recover_procedure), deferred :: recover
     end type plm_recoverer
+
+    ! Extend it by where the bytes of a state or the text of a table go, piece after piece; failed is .false. on entry. It
+    ! must not call the library.
+    type, abstract :: plm_writer
+    contains
+        procedure(write_procedure), deferred :: write
+    end type plm_writer
 
     abstract interface
         ! level: 0 detail, 1 information, 2 warning
@@ -58,6 +67,13 @@ module plm_contexts
             real(real64), intent(inout) :: full(:, :)
             logical, intent(inout) :: failed
         end subroutine recover_procedure
+        subroutine write_procedure(self, bytes, failed)
+            import :: plm_writer, int8
+            implicit none
+            class(plm_writer), intent(inout) :: self
+            integer(int8), intent(in) :: bytes(:)
+            logical, intent(inout) :: failed
+        end subroutine write_procedure
     end interface
 
     ! What the C side holds as `user`: C knows no polymorphic pointers.
@@ -68,6 +84,9 @@ module plm_contexts
     type :: recoverer_box
         class(plm_recoverer), pointer :: recoverer => null()
     end type recoverer_box
+    type :: writer_box
+        class(plm_writer), pointer :: writer => null()
+    end type writer_box
 
     ! Copies by assignment are the same context; destroy one of them, once.
     type :: plm_context
@@ -202,6 +221,20 @@ contains
         call box%recoverer%recover(reduced, full, failed)
         code = merge(1_c_int32_t, 0_c_int32_t, failed)
     end function forward_recovery
+
+    integer(c_int32_t) function forward_bytes(ctx, n, bytes, user) bind(c, name='') result(code)
+        type(c_ptr), value :: ctx, user
+        integer(c_int64_t), value :: n
+        integer(c_int8_t), intent(in) :: bytes(n)
+        type(writer_box), pointer :: box
+        logical :: failed
+        code = 0
+        if (.not. c_associated(ctx)) return
+        call c_f_pointer(user, box)
+        failed = .false.
+        call box%writer%write(bytes, failed)
+        code = merge(1_c_int32_t, 0_c_int32_t, failed)
+    end function forward_bytes
 
     pure function collected(characters) result(text)
         character(kind=c_char), intent(in) :: characters(*)

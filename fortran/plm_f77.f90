@@ -13,7 +13,7 @@ module plm_f77_support
     implicit none
     private
     public :: as_pointer, as_handle, c_text, to_blanks, narrow, narrow_array, forward_log, forward_progress
-    public :: forward_recovery, log_subroutine, progress_subroutine, recover_subroutine
+    public :: forward_bytes, write_subroutine, forward_recovery, log_subroutine, progress_subroutine, recover_subroutine
 
     abstract interface
         subroutine log_subroutine(level, text)
@@ -36,6 +36,12 @@ module plm_f77_support
             real(real64), intent(inout) :: full(nfull, *)
             integer, intent(inout) :: ifail
         end subroutine recover_subroutine
+        subroutine write_subroutine(nbytes, state, ifail)
+            implicit none
+            integer, intent(in) :: nbytes
+            character(len=*), intent(in) :: state
+            integer, intent(inout) :: ifail
+        end subroutine write_subroutine
     end interface
 
 contains
@@ -126,6 +132,20 @@ contains
         call host(int(n_dof), int(n_columns), reduced, int(n_full), full, failed)
         code = int(failed, c_int32_t)
     end function forward_recovery
+
+    integer(c_int32_t) function forward_bytes(ctx, n, bytes, user) bind(c, name='') result(code)
+        type(c_ptr), value :: ctx, user
+        integer(c_int64_t), value :: n
+        character(kind=c_char), intent(in) :: bytes(n)
+        procedure(write_subroutine), pointer :: host
+        integer :: failed
+        code = 0
+        if (as_handle(ctx) == 0) return
+        call c_f_procpointer(transfer(user, as_function()), host)
+        failed = 0
+        call host(int(n), collected(bytes), failed)
+        code = int(failed, c_int32_t)
+    end function forward_bytes
 
     pure type(c_funptr) function as_function()
         use, intrinsic :: iso_c_binding, only: c_null_funptr

@@ -108,3 +108,46 @@ subroutine plmrfb(parent, nbytes, state, handle, ierr)
     ierr = int(plm_branch_read(as_pointer(parent), int(nbytes, int64), c_loc(bytes), found))
     if (ierr >= 0) handle = as_handle(found)
 end subroutine plmrfb
+
+! the basis to a subroutine of the host
+subroutine plmbwt(handle, host, ierr)
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_basis_write_to
+    use plm_f77_support, only: as_pointer, forward_bytes, write_subroutine
+    implicit none
+    integer(int64), intent(in) :: handle
+    procedure(write_subroutine) :: host
+    integer, intent(out) :: ierr
+    ierr = int(plm_basis_write_to(as_pointer(handle), c_funloc(forward_bytes), transfer(c_funloc(host), c_null_ptr)))
+end subroutine plmbwt
+
+! a branch
+subroutine plmrwt(handle, host, ierr)
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_null_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_branch_write_to
+    use plm_f77_support, only: as_pointer, forward_bytes, write_subroutine
+    implicit none
+    integer(int64), intent(in) :: handle
+    procedure(write_subroutine) :: host
+    integer, intent(out) :: ierr
+    ierr = int(plm_branch_write_to(as_pointer(handle), c_funloc(forward_bytes), transfer(c_funloc(host), c_null_ptr)))
+end subroutine plmrwt
+
+! the table of a branch
+subroutine plmrcw(handle, idof, imeas, iharm, host, ierr)
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_int32_t, c_null_ptr
+    use, intrinsic :: iso_fortran_env, only: int64
+    use plm_c, only: plm_branch_write_csv_to
+    use plm_f77_support, only: as_pointer, forward_bytes, write_subroutine
+    implicit none
+    integer(int64), intent(in) :: handle
+    integer, intent(in) :: idof
+    integer, intent(in) :: imeas
+    integer, intent(in) :: iharm
+    procedure(write_subroutine) :: host
+    integer, intent(out) :: ierr
+    ierr = int(plm_branch_write_csv_to(as_pointer(handle), int(idof - 1, int64), int(imeas, c_int32_t), &
+        int(iharm, c_int32_t), c_funloc(forward_bytes), transfer(c_funloc(host), c_null_ptr)))
+end subroutine plmrcw

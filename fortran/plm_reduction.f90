@@ -1,12 +1,12 @@
 ! plm_reduction.f90: the sampler of contact sets, and the bases made from it.
 module plm_reductions
-    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_loc, c_null_ptr
+    use, intrinsic :: iso_c_binding, only: c_ptr, c_int32_t, c_funloc, c_loc, c_null_ptr
     use, intrinsic :: iso_fortran_env, only: int8, int64, real64
     use plm_constants
     use plm_c
     use plm_errors, only: finish
     use plm_methods, only: plm_sampler_methods, plm_basis_methods
-    use plm_contexts, only: plm_context
+    use plm_contexts, only: plm_context, plm_writer, writer_box, forward_bytes
     use plm_models, only: plm_model
     use plm_branches, only: plm_branch, get_handles
     implicit none
@@ -30,6 +30,7 @@ module plm_reductions
         procedure :: vectors
         procedure :: residual
         procedure :: to_bytes => basis_to_bytes
+        procedure :: write_to => basis_write_to
         procedure :: read => basis_read
         procedure :: read_branch
     end type plm_basis
@@ -149,6 +150,17 @@ contains
         end if
         call finish(self%context, status, stat, errmsg)
     end subroutine basis_to_bytes
+
+    ! The same bytes to the writer, piece after piece.
+    subroutine basis_write_to(self, writer, stat, errmsg)
+        class(plm_basis), intent(in) :: self
+        class(plm_writer), intent(inout), target :: writer
+        integer, intent(out), optional :: stat
+        character(len=*), intent(inout), optional :: errmsg
+        type(writer_box), target :: box
+        box%writer => writer
+        call finish(self%context, plm_basis_write_to(self%handle, c_funloc(forward_bytes), c_loc(box)), stat, errmsg)
+    end subroutine basis_write_to
 
     ! In the place of create and build: the basis that to_bytes gave, without its model until attach.
     subroutine basis_read(self, context, bytes, stat, errmsg)

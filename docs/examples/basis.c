@@ -3,6 +3,17 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+/* [plm_basis_write_to] */
+static int32_t to_file(plm_context *ctx, int64_t n, const void *bytes, void *file) {
+    (void)ctx;
+    return fwrite(bytes, 1, (size_t)n, file) == (size_t)n ? 0 : 1; /* 1: PLM_ERR_CALLBACK, "library_code" 1 */
+}
+static int keep_in_file(plm_basis *basis, FILE *file) {
+    TRY(plm_basis_write_to(basis, to_file, file));
+    return fflush(file);
+}
+/* [plm_basis_write_to] */
+
 /* Kept as bytes, and read again, here in the same program; a host writes them to a file between. */
 static int keep(plm_context *ctx, plm_model *model, plm_basis *basis) {
     plm_basis *read = NULL;
@@ -17,6 +28,9 @@ static int keep(plm_context *ctx, plm_model *model, plm_basis *basis) {
     EXPECT(bytes);
     TRY(plm_basis_write(basis, size, bytes, &size));
     /* [plm_basis_write] */
+    FILE *file = tmpfile();
+    EXPECT(file && keep_in_file(basis, file) == 0 && ftell(file) == (long)size);
+    fclose(file);
 
     /* [plm_basis_read] */
     TRY(plm_basis_read(ctx, size, bytes, &read)); /* in another process, say */

@@ -79,6 +79,18 @@ static int one_point(plm_branch *peak) {
     return 0;
 }
 
+/* [plm_branch_write_to] [plm_branch_write_csv_to] */
+static int32_t to_file(plm_context *ctx, int64_t n, const void *bytes, void *file) {
+    (void)ctx;
+    return fwrite(bytes, 1, (size_t)n, file) == (size_t)n ? 0 : 1;
+}
+static int keep_in_files(plm_branch *curve, FILE *state, FILE *table) {
+    TRY(plm_branch_write_to(curve, to_file, state));
+    TRY(plm_branch_write_csv_to(curve, 1, PLM_HALF_PEAK_TO_PEAK, 0, to_file, table));
+    return 0;
+}
+/* [plm_branch_write_to] [plm_branch_write_csv_to] */
+
 static int kept(plm_basis *basis, plm_branch *curve) {
     plm_branch *read = NULL;
     double before, after;
@@ -90,6 +102,10 @@ static int kept(plm_basis *basis, plm_branch *curve) {
     EXPECT(bytes);
     TRY(plm_branch_write(curve, size, bytes, &size));
     /* [plm_branch_write] */
+    FILE *state = tmpfile(), *table = tmpfile();
+    EXPECT(state && table && keep_in_files(curve, state, table) == 0);
+    EXPECT(ftell(state) == (long)size && ftell(table) > 100);
+    fclose(state), fclose(table);
 
     /* [plm_branch_read] */
     TRY(plm_branch_read(basis, size, bytes, &read)); /* or a basis that was read from its own bytes */

@@ -1,12 +1,12 @@
 /*
- * calculix_response.c: nonlinear forced response of a cracked plate whose finite elements are CalculiX's.
+ * calculix_response.c: nonlinear forced response of a deck with contact whose finite elements are CalculiX's.
  *
  *     calculix_response FOLDER
  *
- * FOLDER holds the decks of plate.py and what ccx made of them (run.sh does it all). The program hands ccx's
- * matrices, the contact pairs, the pre-load and the tip force to libplm, prints natural frequencies beside
- * ccx's own, and follows the response near the first in-plane bending mode: FOLDER/curve.csv. Exit status 1
- * when anything fails or a frequency differs by more than 1e-6.
+ * FOLDER holds what host_files.py and ccx made of a deck (run.sh does it all). The program hands ccx's
+ * matrices and all that the deck says beside them to libplm, a record of model.txt for each call, prints
+ * natural frequencies beside ccx's own where these are, and finds the response with nothing set:
+ * FOLDER/curve.csv. Exit status 1 when anything fails or a frequency differs by more than 1e-6.
  */
 #include <inttypes.h>
 #include <math.h>
@@ -17,131 +17,201 @@
 
 #include "ccx_files.h"
 
-enum { n_compared = 10, path_size = 4096 };
+enum { n_compared = 10, most_rigid = 6, path_size = 4096 };
 static const double agreement = 1e-6; /* ccx prints 7 digits: half a unit of the last one is up to 5e-7 */
-static const double quality = 100, quality_hz = 1700, pi = 3.14159265358979323846;
 
-/* ---- what plate.py writes beside the decks ---- */
-
-typedef struct plate {
-    int64_t n_dof, n_pairs;
-    int32_t *dof_a, *dof_b; /* 3 n_pairs: matrix rows from 1; 0: no such DOF (clamped) */
-    double *normal, *stiffness;
-    double *preload, *force; /* n_dof */
-    int32_t drive_row;       /* the driven and watched DOF, from 1 */
-} plate;
-
-static void plate_free(plate *p) {
-    free(p->dof_a);
-    free(p->dof_b);
-    free(p->normal);
-    free(p->stiffness);
-    free(p->preload);
-    free(p->force);
-}
-
-static int plate_allocate(plate *p, int64_t n_dof, int64_t most_pairs) {
-    const size_t n = (size_t)n_dof, m = (size_t)most_pairs + 1;
-    memset(p, 0, sizeof *p);
-    p->n_dof = n_dof;
-    p->dof_a = malloc(3 * m * sizeof *p->dof_a);
-    p->dof_b = malloc(3 * m * sizeof *p->dof_b);
-    p->normal = malloc(3 * m * sizeof *p->normal);
-    p->stiffness = malloc(m * sizeof *p->stiffness);
-    p->preload = calloc(n, sizeof *p->preload);
-    p->force = calloc(n, sizeof *p->force);
-    return !(p->dof_a && p->dof_b && p->normal && p->stiffness && p->preload && p->force);
-}
-
-/* One line of plate.txt; 0 when it was understood. */
-static int plate_line(const char *line, const ccx_dofs *dofs, plate *p) {
-    int32_t a, b, direction;
-    double value, *normal = p->normal + 3 * p->n_pairs;
-    if (sscanf(line, "pair %d %d %lf %lf %lf %lf", &a, &b, normal, normal + 1, normal + 2, &value) == 6) {
-        for (int32_t d = 0; d < 3; d++) {
-            p->dof_a[3 * p->n_pairs + d] = ccx_row(dofs, a, d + 1);
-            p->dof_b[3 * p->n_pairs + d] = ccx_row(dofs, b, d + 1);
-        }
-        p->stiffness[p->n_pairs++] = value;
-        return 0;
-    }
-    const int is_preload = sscanf(line, "preload %d %d %lf", &a, &direction, &value) == 3;
-    if (!is_preload && sscanf(line, "force %d %d %lf", &a, &direction, &value) != 3) return 1;
-    const int32_t row = ccx_row(dofs, a, direction);
-    if (row == 0) return 1;
-    (is_preload ? p->preload : p->force)[row - 1] += value;
-    if (!is_preload) p->drive_row = row;
-    return 0;
-}
-
-static int plate_read(const char *path, const ccx_dofs *dofs, plate *p) {
-    char line[256];
-    int64_t n_lines = 0;
-    FILE *file = fopen(path, "r");
-    while (file && fgets(line, sizeof line, file)) n_lines++;
-    if (file) rewind(file);
-    int failed = !file || plate_allocate(p, dofs->n_rows, n_lines);
-    while (!failed && fgets(line, sizeof line, file)) failed = plate_line(line, dofs, p);
-    if (file) fclose(file);
-    if (failed || p->drive_row == 0 || p->n_pairs == 0) {
-        fprintf(stderr, "%s: missing, or not as plate.py writes it\n", path);
-        return 1;
-    }
-    return 0;
-}
-
-/* ---- libplm ---- */
+typedef struct host {
+    plm_context *ctx;
+    plm_model *model;
+    const char *folder;
+    int64_t n_dof, output; /* rows of the model; the one that is looked at */
+} host;
 
 /* Prints the library's own words about a failure or an outcome; 1 for a failure. */
 static int failed(plm_context *ctx, plm_status status) {
-    char text[1024] = "";
+    char text[4096] = "";
     if (status == PLM_OK) return 0;
-    if (status < 0) plm_context_get_error_text(ctx, sizeof text, text, NULL);
+    if (status < 0 || status == PLM_WARNING) plm_context_get_error_text(ctx, sizeof text, text, NULL);
     if (!text[0]) plm_status_text(status, sizeof text, text, NULL);
     fprintf(stderr, "%s: %s\n", status < 0 ? "error" : "note", text);
     return status < 0;
 }
 #define TRY(call)                                                                                            \
     do {                                                                                                     \
-        if (failed(ctx, (call))) return 1;                                                                   \
+        if (failed(h->ctx, (call))) return 1;                                                                \
     } while (0)
 
-static int set_matrix(plm_context *ctx, plm_model *model, int32_t which, const char *path) {
-    ccx_matrix m;
-    if (ccx_read_matrix(path, &m)) return 1;
-    const plm_status status = plm_model_set_matrix_i32(model, which, PLM_TRIPLETS, PLM_UPPER, 1, PLM_COPY,
-                                                       m.n_entries, m.row, m.column, m.value);
-    ccx_free_matrix(&m);
-    return failed(ctx, status);
+static const char *in_folder(const host *h, const char *name, char *path) {
+    snprintf(path, path_size, "%s/%s", h->folder, name);
+    return path;
 }
 
-static int build_model(plm_context *ctx, plm_model *model, const plate *p) {
-    TRY(plm_model_set_rayleigh_damping(model, 0, 1 / (quality * 2 * pi * quality_hz)));
-    TRY(plm_model_add_node_pairs_i32(model, 1, p->n_pairs, p->dof_a, p->dof_b, p->normal, p->stiffness,
-                                     NULL));
-    TRY(plm_model_set_preload(model, p->n_dof, p->preload));
-    TRY(plm_model_set_excitation(model, 1, p->n_dof, p->force, NULL));
-    TRY(plm_model_build(model));
-    TRY(plm_model_solve_rest(model));
-    double local_stiffness;
-    int64_t n_closed;
-    TRY(plm_model_get_double(model, "local_stiffness", &local_stiffness));
-    TRY(plm_model_get_int(model, "rest_n_closed", &n_closed));
-    printf("%" PRId64 " DOFs, %" PRId64 " contact pairs, k_n = %.3g N/mm (local stiffness %.3g), %" PRId64
-           " pairs closed at rest\n",
-           p->n_dof, p->n_pairs, p->stiffness[0], local_stiffness, n_closed);
+/* ---- the model ---- */
+
+/* ccx's matrix, and masses at nodes, which ccx leaves out of what it writes: entries of a row add up. */
+static int set_matrix(const host *h, int32_t which, const char *name, const host_record *mass) {
+    char path[path_size];
+    ccx_matrix m;
+    if (ccx_read_matrix(in_folder(h, name, path), mass ? mass->n_integers : 0, &m)) return 1;
+    for (int64_t i = 0; mass && i < mass->n_integers; i++, m.n_entries++) {
+        m.row[m.n_entries] = m.column[m.n_entries] = (int32_t)mass->integer[i] + 1;
+        m.value[m.n_entries] = mass->real[i];
+    }
+    const plm_status status = plm_model_set_matrix_i32(h->model, which, PLM_TRIPLETS, PLM_UPPER, 1, PLM_COPY,
+                                                       m.n_entries, m.row, m.column, m.value);
+    ccx_free_matrix(&m);
+    return failed(h->ctx, status);
+}
+
+/* Number of a harmonic part, NULL where it is zero. */
+static const double *imaginary(const double *value, int64_t n) {
+    for (int64_t i = 0; i < n; i++)
+        if (value[i] != 0) return value;
+    return NULL;
+}
+
+static int add_rigid_link(const host *h, const int64_t *i, const double *d) {
+    const int32_t per_reference = (int32_t)i[0], per_dependent = (int32_t)i[2];
+    const int64_t *reference = i + 3, *dependent = reference + per_reference;
+    TRY(plm_model_add_rigid_link_i64(h->model, 0, per_reference, reference, d, i[1], per_dependent, dependent,
+                                     d + 3));
     return 0;
 }
 
-static int compare(plm_context *ctx, plm_model *model, int32_t system, const char *name,
-                   const char *dat_path) {
-    double ccx[n_compared], plm[n_compared], largest = 0;
-    if (ccx_read_frequencies(dat_path, n_compared, ccx)) return 1;
-    TRY(plm_model_get_modes(model, system, NULL, n_compared, plm, NULL));
+static int add_distributing(const host *h, const int64_t *i, const double *d) {
+    const int32_t per_reference = (int32_t)i[0];
+    const int64_t n = i[1], *reference = i + 2;
+    TRY(plm_model_add_distributing_coupling_i64(h->model, 0, per_reference, reference, d, n,
+                                                reference + per_reference, d + 3, d + 3 + 3 * n));
+    return 0;
+}
+
+static int add_tie(const host *h, const int64_t *i, const double *d) {
+    const int64_t n = i[0], n_surface = i[1], n_faces = i[2];
+    const int64_t *dof = i + 3, *surface_dof = dof + 3 * n, *start = surface_dof + 3 * n_surface;
+    TRY(plm_model_add_tie_i64(h->model, 0, n, dof, d + 1, n_surface, surface_dof, d + 1 + 3 * n, n_faces,
+                              start, start + n_faces + 1, d[0], NULL));
+    return 0;
+}
+
+static int add_surface(const host *h, const int64_t *i, const double *d) {
+    const int64_t n = i[0], n_faces = i[1], *dof = i + 3, *start = dof + 3 * n;
+    int64_t number; /* as host_files.py counted */
+    TRY(plm_model_add_surface_i64(h->model, 0, n, dof, d, i[2] ? d + 3 * n : NULL, n_faces,
+                                  n_faces ? start : NULL, n_faces ? start + n_faces + 1 : NULL, &number));
+    return 0;
+}
+
+static int add_contact(const host *h, const int64_t *i, const double *d) {
+    const int32_t options = (i[2] ? PLM_SURFACE_POINTS : 0) + (i[3] ? PLM_SURFACE_SYMMETRIC : 0) +
+                            (i[4] ? PLM_SURFACE_SMOOTH : 0);
+    TRY(plm_model_add_surface_contact(h->model, i[0], i[1], options, i[5] ? PLM_AUTO_STIFFNESS : d[0], d[1],
+                                      d[2]));
+    return 0;
+}
+
+/* One record of model.txt, which is one call. */
+static int tell(host *h, const host_record *r) {
+    const int64_t *i = r->integer;
+    const double *d = r->real;
+    const int64_t half = r->n_reals / 2;
+#define IS(name) (strcmp(r->word, name) == 0)
+    if (IS("rigid_link")) return add_rigid_link(h, i, d);
+    if (IS("distributing")) return add_distributing(h, i, d);
+    if (IS("tie")) return add_tie(h, i, d);
+    if (IS("surface")) return add_surface(h, i, d);
+    if (IS("contact")) return add_contact(h, i, d);
+    if (IS("output")) {
+        h->output = i[0];
+        return 0;
+    }
+    if (IS("rayleigh"))
+        TRY(plm_model_set_rayleigh_damping(h->model, d[0], d[1]));
+    else if (IS("modal_damping"))
+        TRY(plm_model_set_modal_damping(h->model, r->n_reals, d));
+    else if (IS("fix"))
+        TRY(plm_model_fix_dofs_i64(h->model, 0, r->n_integers, i));
+    else if (IS("constraints"))
+        TRY(plm_model_add_constraints_i64(h->model, 0, i[0], i + 1, i + 2 + i[0], d));
+    else if (IS("coordinates"))
+        TRY(plm_model_set_coordinates_i64(h->model, 0, i[0], (int32_t)i[1], i + 2, d));
+    else if (IS("base_motion"))
+        TRY(plm_model_set_base_motion(h->model, (int32_t)i[0], 1, half, d, imaginary(d + half, half)));
+    else if (IS("preload"))
+        TRY(plm_model_set_preload(h->model, r->n_reals, d));
+    else if (IS("excitation"))
+        TRY(plm_model_set_excitation(h->model, 1, half, d, imaginary(d + half, half)));
+    else {
+        fprintf(stderr, "model.txt: a record \"%s\" is not known\n", r->word);
+        return 1;
+    }
+    return 0;
+#undef IS
+}
+
+/* The first record says how many rows the model has, masses come before all others. */
+static int read_model(host *h, FILE *file, host_record *r) {
+    int end = 0, has_matrices = 0;
+    if (host_read_record(file, r, &end)) return 1;
+    if (end || strcmp(r->word, "size") != 0) {
+        fprintf(stderr, "model.txt does not begin with its size\n");
+        return 1;
+    }
+    h->n_dof = r->integer[0];
+    TRY(plm_model_create(h->ctx, h->n_dof, &h->model));
+    if (set_matrix(h, PLM_STIFFNESS, "matrices.sti", NULL)) return 1;
+    while (!host_read_record(file, r, &end)) {
+        if (end) return 0;
+        const int is_mass = strcmp(r->word, "mass") == 0;
+        if (!has_matrices && set_matrix(h, PLM_MASS, "matrices.mas", is_mass ? r : NULL)) return 1;
+        has_matrices = 1;
+        if (!is_mass && tell(h, r)) return 1;
+    }
+    return 1;
+}
+
+static int build_model(host *h) {
+    char path[path_size];
+    host_record record = {"", 0, 0, NULL, NULL};
+    FILE *file = fopen(in_folder(h, "model.txt", path), "r");
+    if (!file) {
+        perror(path);
+        return 1;
+    }
+    const int bad = read_model(h, file, &record);
+    host_free_record(&record);
+    fclose(file);
+    if (bad) return 1;
+    TRY(plm_model_build(h->model));
+    TRY(plm_model_solve_rest(h->model));
+    int64_t n_pairs, n_closed;
+    TRY(plm_model_get_int(h->model, "n_pairs", &n_pairs));
+    TRY(plm_model_get_int(h->model, "rest_n_closed", &n_closed));
+    printf("%" PRId64 " DOFs, %" PRId64 " contact pairs, %" PRId64 " of them closed at rest\n", h->n_dof,
+           n_pairs, n_closed);
+    return 0;
+}
+
+/* ---- what comes of it ---- */
+
+/* Frequencies beside ccx's; rigid motions, which Lanczos finds anywhere near 0, are passed over. */
+static int compare(host *h, int32_t system, const char *name, const char *dat) {
+    double ccx[n_compared + most_rigid], plm[n_compared + most_rigid], largest = 0;
+    char path[path_size];
+    int64_t rigid = 0;
+    FILE *there = fopen(in_folder(h, dat, path), "r");
+    if (!there) {
+        printf("\n%s: no %s, nothing to compare with\n", name, dat);
+        return 0;
+    }
+    fclose(there);
+    if (ccx_read_frequencies(path, n_compared + most_rigid, ccx)) return 1;
+    TRY(plm_model_get_modes(h->model, system, NULL, n_compared + most_rigid, plm, NULL));
+    while (rigid < most_rigid && plm[rigid] < 1e-3 * plm[most_rigid]) rigid++;
     printf("\n%-8s mode       ccx (Hz)    libplm (Hz)  relative difference\n", name);
-    for (int i = 0; i < n_compared; i++) {
+    for (int64_t i = rigid; i < rigid + n_compared; i++) {
         const double difference = fabs(plm[i] / ccx[i] - 1);
-        printf("%-8s %4d %14.7g %14.9g  %.1e\n", name, i + 1, ccx[i], plm[i], difference);
+        printf("%-8s %4" PRId64 " %14.7g %14.9g  %.1e\n", name, i + 1, ccx[i], plm[i], difference);
         if (!(difference <= largest)) largest = difference;
     }
     if (largest <= agreement) return 0;
@@ -149,97 +219,31 @@ static int compare(plm_context *ctx, plm_model *model, int32_t system, const cha
     return 1;
 }
 
-static int write_curve(plm_context *ctx, plm_branch *branch, int64_t dof, const char *path) {
-    enum { most = 5000 };
-    static double hz[most], peak[most], first[most];
-    static int64_t switching[most];
-    int64_t n;
-    TRY(plm_branch_get_array(branch, "frequency_hz", most, hz, &n));
-    TRY(plm_branch_get_amplitude(branch, dof, PLM_HALF_PEAK_TO_PEAK, 0, most, peak, &n));
-    TRY(plm_branch_get_amplitude(branch, dof, PLM_HARMONIC, 1, most, first, &n));
-    TRY(plm_branch_get_int_array(branch, "n_switching", most, switching, &n));
-    FILE *file = fopen(path, "w");
-    if (!file) {
-        perror(path);
-        return 1;
-    }
-    fprintf(file, "frequency_hz,half_peak_to_peak_mm,first_harmonic_mm,switching_pairs\n");
-    for (int64_t i = 0; i < n; i++)
-        fprintf(file, "%.10g,%.10g,%.10g,%" PRId64 "\n", hz[i], peak[i], first[i], switching[i]);
-    if (fclose(file)) {
-        perror(path);
-        return 1;
-    }
+static int response(host *h) {
+    static char page[16384];
+    char path[path_size];
+    plm_branch *curve;
+    double hz, amplitude, error;
+    TRY(plm_model_compute_response(h->model, h->output, PLM_HALF_PEAK_TO_PEAK, 1e-3, &hz, &amplitude, &error,
+                                   &curve, NULL));
+    TRY(plm_branch_write_csv(curve, h->output, PLM_HALF_PEAK_TO_PEAK, 0, in_folder(h, "curve.csv", path)));
+    TRY(plm_branch_describe(curve, sizeof page, page, NULL));
+    printf("\n%s\npeak: %.6g Hz, %.6g, within %.1e; curve written to %s\n", page, hz, amplitude, error, path);
     return 0;
 }
 
-/* Sampler, basis, harmonic balance: every handle lives until the context is destroyed. */
-static int response(plm_context *ctx, plm_model *model, int64_t dof, const char *csv_path) {
-    plm_sampler *sampler;
-    plm_basis *basis;
-    plm_hbm *hbm;
-    plm_branch *branch;
-    char text[512];
-    double dominant_hz, peak_hz, amplitude, seconds;
-    int64_t size, n_points, reason;
-
-    TRY(plm_sampler_create(model,
-                           &sampler)); /* the mode is proposed by its share in the drive-point response */
-    TRY(plm_sampler_run(sampler));
-    TRY(plm_sampler_get_double(sampler, "dominant_frequency_hz", &dominant_hz));
-    TRY(plm_sampler_get_string(sampler, "window_why", sizeof text, text, NULL));
-    printf("\ndominant mode: %.2f Hz; window: %s\n", dominant_hz, text);
-
-    TRY(plm_basis_create(model, &basis));
-    TRY(plm_basis_set_string(basis, "kind", "plm"));
-    TRY(plm_basis_set_sampler(basis, sampler));
-    TRY(plm_basis_build(basis));
-    TRY(plm_basis_get_int(basis, "size", &size));
-
-    TRY(plm_hbm_create(basis, &hbm));
-    TRY(plm_hbm_set_int(hbm, "n_harmonics", 5));
-    TRY(plm_hbm_sweep(hbm, &branch));
-    TRY(plm_branch_get_int(branch, "n_points", &n_points));
-    TRY(plm_branch_get_int(branch, "end_reason", &reason));
-    TRY(plm_branch_get_double(branch, "seconds", &seconds));
-    TRY(plm_branch_get_string(branch, "end_text", sizeof text, text, NULL));
-    printf("basis: %" PRId64 " vectors; curve: %" PRId64 " points in %.2f s, end: %s\n", size, n_points,
-           seconds, text);
-    if (write_curve(ctx, branch, dof, csv_path)) return 1;
-    TRY(plm_hbm_find_peak(hbm, branch, dof, PLM_HALF_PEAK_TO_PEAK, 0, &peak_hz, &amplitude, NULL));
-    printf("peak: %.3f Hz, %.5g mm; curve written to %s\n", peak_hz, amplitude, csv_path);
-    return reason != PLM_REASON_RANGE_END;
-}
-
-/* ---- */
-
-static int run(plm_context *ctx, const char *folder) {
-    char path[path_size];
-    ccx_dofs dofs;
-    plate p = {0};
-    plm_model *model;
-#define IN_FOLDER(name) (snprintf(path, sizeof path, "%s/" name, folder), path)
-    if (ccx_read_dofs(IN_FOLDER("matrices.dof"), &dofs)) return 1;
-    int bad = plate_read(IN_FOLDER("plate.txt"), &dofs, &p);
-    bad = bad || failed(ctx, plm_model_create(ctx, dofs.n_rows, &model)) ||
-          set_matrix(ctx, model, PLM_STIFFNESS, IN_FOLDER("matrices.sti")) ||
-          set_matrix(ctx, model, PLM_MASS, IN_FOLDER("matrices.mas")) || build_model(ctx, model, &p);
-    if (!bad) {
-        bad = compare(ctx, model, PLM_SYSTEM_OPEN, "open", IN_FOLDER("open.dat"));
-        bad |= compare(ctx, model, PLM_SYSTEM_SLIDING, "closed", IN_FOLDER("closed.dat"));
-        bad |= response(ctx, model, p.drive_row - 1, IN_FOLDER("curve.csv"));
-    }
-    ccx_free_dofs(&dofs);
-    plate_free(&p);
-    return bad;
-}
-
 int main(int argc, char **argv) {
+    host h = {NULL, NULL, NULL, 0, 0};
     if (argc != 2 || strlen(argv[1]) > path_size - 32) {
         fprintf(stderr, "usage: calculix_response FOLDER (see README.md)\n");
         return 1;
     }
-    plm_context *ctx = NULL;
-    const int bad = failed(ctx, plm_context_create(PLM_API_VERSION, &ctx)) || run(ctx, argv[1]);
-    return failed(ctx, plm_context_destroy(&ctx)) || bad;
+    h.folder = argv[1];
+    int bad = failed(h.ctx, plm_context_create(PLM_API_VERSION, &h.ctx)) || build_model(&h);
+    if (!bad) {
+        bad = compare(&h, PLM_SYSTEM_OPEN, "open", "open.dat");
+        bad |= compare(&h, PLM_SYSTEM_SLIDING, "closed", "closed.dat");
+        bad |= response(&h);
+    }
+    return failed(h.ctx, plm_context_destroy(&h.ctx)) || bad; /* with every handle that is left in it */
 }

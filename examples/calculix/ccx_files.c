@@ -1,6 +1,7 @@
 /* ccx_files.c: see ccx_files.h. */
 #include "ccx_files.h"
 
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,12 +25,13 @@ static int64_t count_lines(FILE *file) {
     return n;
 }
 
-int ccx_read_matrix(const char *path, ccx_matrix *matrix) {
+int ccx_read_matrix(const char *path, int64_t n_more, ccx_matrix *matrix) {
     FILE *file = open_file(path);
     if (!file) return 1;
     const int64_t n = count_lines(file);
-    ccx_matrix m = {n, malloc((size_t)n * sizeof *m.row), malloc((size_t)n * sizeof *m.column),
-                    malloc((size_t)n * sizeof *m.value)};
+    const size_t room = (size_t)(n + n_more);
+    ccx_matrix m = {n, malloc(room * sizeof *m.row), malloc(room * sizeof *m.column),
+                    malloc(room * sizeof *m.value)};
     int64_t i = 0;
     if (m.row && m.column && m.value)
         while (i < n && fscanf(file, "%d %d %lf", &m.row[i], &m.column[i], &m.value[i]) == 3) i++;
@@ -49,40 +51,31 @@ void ccx_free_matrix(ccx_matrix *matrix) {
     memset(matrix, 0, sizeof *matrix);
 }
 
-/* Reads "node.direction"; 0 at the end of the file and for anything else. */
-static int read_dof(FILE *file, int32_t *node, int32_t *direction) {
-    return fscanf(file, "%d.%d", node, direction) == 2 && *node >= 1 && *direction >= 1 && *direction <= 3;
-}
-
-int ccx_read_dofs(const char *path, ccx_dofs *dofs) {
-    FILE *file = open_file(path);
-    if (!file) return 1;
-    int32_t node, direction;
-    ccx_dofs d = {0, 0, NULL};
-    while (read_dof(file, &node, &direction)) {
-        d.n_rows++;
-        if (node > d.n_nodes) d.n_nodes = node;
+int host_read_record(FILE *file, host_record *record, int *end) {
+    host_record r = {"", 0, 0, NULL, NULL};
+    int64_t i = 0, j = 0;
+    host_free_record(record);
+    const int found = fscanf(file, "%31s %" SCNd64 " %" SCNd64, r.word, &r.n_integers, &r.n_reals);
+    *end = found == EOF;
+    if (*end) return 0;
+    if (found == 3 && r.n_integers >= 0 && r.n_reals >= 0) {
+        r.integer = malloc((size_t)(r.n_integers + 1) * sizeof *r.integer);
+        r.real = malloc((size_t)(r.n_reals + 1) * sizeof *r.real);
+        if (r.integer && r.real) {
+            while (i < r.n_integers && fscanf(file, "%" SCNd64, &r.integer[i]) == 1) i++;
+            while (j < r.n_reals && fscanf(file, "%lf", &r.real[j]) == 1) j++;
+        }
     }
-    const int read_all = feof(file) && d.n_rows > 0;
-    rewind(file);
-    if (read_all) d.row = calloc(3 * (size_t)d.n_nodes, sizeof *d.row);
-    if (d.row)
-        for (int32_t row = 1; read_dof(file, &node, &direction); row++)
-            d.row[3 * (node - 1) + direction - 1] = row;
-    fclose(file);
-    if (!d.row) return fail(path, "is not a list of \"node.direction\", or memory is short");
-    *dofs = d;
-    return 0;
+    *record = r;
+    if (found == 3 && i == r.n_integers && j == r.n_reals) return 0;
+    host_free_record(record);
+    return fail("model.txt", "is not as host_files.py writes it, or memory is short");
 }
 
-void ccx_free_dofs(ccx_dofs *dofs) {
-    free(dofs->row);
-    memset(dofs, 0, sizeof *dofs);
-}
-
-int32_t ccx_row(const ccx_dofs *dofs, int32_t node, int32_t direction) {
-    if (node < 1 || node > dofs->n_nodes || direction < 1 || direction > 3) return 0;
-    return dofs->row[3 * (node - 1) + direction - 1];
+void host_free_record(host_record *record) {
+    free(record->integer);
+    free(record->real);
+    memset(record, 0, sizeof *record);
 }
 
 int ccx_read_frequencies(const char *path, int32_t n, double *frequency_hz) {

@@ -1,9 +1,10 @@
-/* ccx_files.h: reads what CalculiX ccx writes. Every function returns 0, or prints what is wrong and
- * returns 1. */
+/* ccx_files.h: reads what CalculiX ccx and host_files.py write. Every function returns 0, or prints what is
+ * wrong and returns 1. */
 #ifndef CCX_FILES_H
 #define CCX_FILES_H
 
 #include <stdint.h>
+#include <stdio.h>
 
 /* jobname.sti, jobname.mas (*FREQUENCY, SOLVER=MATRIXSTORAGE): "row column value", counted from 1, the upper
  * triangle. */
@@ -13,20 +14,21 @@ typedef struct ccx_matrix {
     double *value;
 } ccx_matrix;
 
-int ccx_read_matrix(const char *path, ccx_matrix *matrix);
+/* n_more: room for entries behind those of the file. */
+int ccx_read_matrix(const char *path, int64_t n_more, ccx_matrix *matrix);
 void ccx_free_matrix(ccx_matrix *matrix);
 
-/* jobname.dof: line i holds "node.direction" of matrix row i. DOFs under a *BOUNDARY have no row. C3D8I
- * elements bring three nodes each for their incompatible modes; they have rows like all others. */
-typedef struct ccx_dofs {
-    int32_t n_rows, n_nodes;
-    int32_t *row; /* 3 n_nodes */
-} ccx_dofs;
+/* model.txt of host_files.py: "word integers reals", then so many integers and so many reals. */
+typedef struct host_record {
+    char word[32];
+    int64_t n_integers, n_reals;
+    int64_t *integer;
+    double *real;
+} host_record;
 
-int ccx_read_dofs(const char *path, ccx_dofs *dofs);
-void ccx_free_dofs(ccx_dofs *dofs);
-/* Matrix row, from 1, of a node (from 1) and a direction (1, 2, 3); 0 when there is none. */
-int32_t ccx_row(const ccx_dofs *dofs, int32_t node, int32_t direction);
+/* The next record of the file; *end: there is none. Free it, or read the next one into it. */
+int host_read_record(FILE *file, host_record *record, int *end);
+void host_free_record(host_record *record);
 
 /* jobname.dat: the first n natural frequencies in cycles/time, written by ccx with 7 digits. */
 int ccx_read_frequencies(const char *path, int32_t n, double *frequency_hz);

@@ -213,6 +213,7 @@ class State {
     using Outcome = std::function<void(plm_status, std::string_view)>;
     using Factor = std::function<std::unique_ptr<Factorization>(const LowerTriangle &)>;
     using Recover = std::function<void(const Recovery &)>;
+    using Write = std::function<void(std::string_view)>;
 
     State() = default;
     State(const State &) = delete;
@@ -280,6 +281,16 @@ class State {
         recoveries.push_back(std::make_unique<OwnRecovery>(OwnRecovery{this, std::move(f)}));
         check(plm_model_set_recovery(model, n_full, on_recover, recoveries.back().get()),
               "plm_model_set_recovery");
+    }
+
+    struct OwnWriter {
+        State *state;
+        Write write;
+    };
+    static std::int32_t on_write(plm_context *, std::int64_t n, const void *bytes, void *user) noexcept {
+        const auto *w = static_cast<const OwnWriter *>(user);
+        const std::string_view piece(static_cast<const char *>(bytes), static_cast<std::size_t>(n));
+        return w->state->guarded([&] { w->write(piece); }) ? 0 : 1;
     }
 
     plm_context *context = nullptr;
@@ -446,6 +457,11 @@ template <class C> class Handle {
         std::vector<char> all(index(needed));
         check(write(handle_, needed, all.data(), &needed), "write");
         return all;
+    }
+    /// By one of the functions that take a plm_write_fn.
+    template <class W, class... A> void hand_to(State::Write f, const char *verb, W write, A... a) const {
+        State::OwnWriter writer{&living(), std::move(f)};
+        check(write(handle_, a..., State::on_write, &writer), verb);
     }
     void check(plm_status status, const char *verb) const {
         if (status != PLM_OK || (state_ && state_->thrown)) living().check(status, full_name(verb).c_str());
@@ -1077,6 +1093,8 @@ class Basis : public detail::WithOptions<Basis, plm_basis> {
     /// What to_bytes() gave, built; without its model until attach().
     static Basis from_bytes(const Context &context, const std::vector<char> &bytes);
     std::vector<char> to_bytes() const { return bytes(plm_basis_write); }
+    /// The same bytes to f(std::string_view), piece after piece; it throws on failure.
+    template <class F> void write_to(F f) const { hand_to(std::move(f), "write_to", plm_basis_write_to); }
     /// The model that it was made of.
     void attach(const Model &model) { check(plm_basis_attach(handle_, model.c_handle()), "attach"); }
     /// What Branch::to_bytes() gave, of a curve computed on this basis.
@@ -1204,6 +1222,8 @@ class Branch : public detail::Handle<plm_branch> {
         return defect;
     }
     std::vector<char> to_bytes() const { return bytes(plm_branch_write); }
+    /// The same bytes to f(std::string_view), piece after piece; it throws on failure.
+    template <class F> void write_to(F f) const { hand_to(std::move(f), "write_to", plm_branch_write_to); }
     /// A page of text about the curve: peak, stability, error, warnings and the rest.
     std::string describe() const {
         std::string text;
@@ -1215,6 +1235,12 @@ class Branch : public detail::Handle<plm_branch> {
     void write_csv(const std::string &path, std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
                    std::int32_t harmonic = 0) const {
         check(plm_branch_write_csv(handle_, dof, measure, harmonic, path.c_str()), "write_csv");
+    }
+    /// The same text to f(std::string_view).
+    template <class F>
+    void write_csv_to(F f, std::int64_t dof, std::int32_t measure = PLM_HALF_PEAK_TO_PEAK,
+                      std::int32_t harmonic = 0) const {
+        hand_to(std::move(f), "write_csv_to", plm_branch_write_csv_to, dof, measure, harmonic);
     }
     double full_residual(std::int64_t point) const {
         double r = 0;

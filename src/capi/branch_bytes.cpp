@@ -27,6 +27,13 @@ plm_status plm_branch_write(plm_branch *branch, std::int64_t capacity, void *byt
     });
 }
 
+plm_status plm_branch_write_to(plm_branch *branch, plm_write_fn fn, void *user) {
+    return call<BranchHandle>("plm_branch_write_to", branch, [&](BranchHandle &b) {
+        const auto body = [&](plm::ByteWriter &to) { plm::write_branch(to, *b.core); };
+        return hand_bytes(plm::BytesOf::branch, body, HostSink(*b.owner, fn, user));
+    });
+}
+
 plm_status plm_branch_read(plm_basis *basis, std::int64_t n, const void *bytes, plm_branch **branch) {
     return call<BasisHandle>("plm_branch_read", basis, [&](BasisHandle &b) {
         require_pointer(branch, "branch");
@@ -45,6 +52,18 @@ plm_status plm_branch_write_csv(plm_branch *branch, std::int64_t dof, std::int32
         require_pointer(path, "path");
         plm::write_whole_file(path,
                               plm::csv_of(*b.core, {dof, static_cast<plm::Measure>(measure), harmonic}));
+        return PLM_OK;
+    });
+}
+
+plm_status plm_branch_write_csv_to(plm_branch *branch, std::int64_t dof, std::int32_t measure,
+                                   std::int32_t harmonic, plm_write_fn fn, void *user) {
+    return call<BranchHandle>("plm_branch_write_csv_to", branch, [&](BranchHandle &b) {
+        require_measure(*b.core, dof, measure, harmonic);
+        HostSink to(*b.owner, fn, user);
+        const std::string text = plm::csv_of(*b.core, {dof, static_cast<plm::Measure>(measure), harmonic});
+        to(text.data(), text.size());
+        to.flush();
         return PLM_OK;
     });
 }

@@ -1,5 +1,6 @@
 #include "capi/bytes.hpp"
 #include "capi/barrier.hpp"
+#include <algorithm>
 #include <cstring>
 
 namespace plm::capi {
@@ -26,6 +27,38 @@ plm_status put_bytes(BytesOf kind, const std::function<void(ByteWriter &)> &body
     return PLM_OK;
 }
 
+void HostSink::operator()(const void *bytes, std::size_t n) {
+    constexpr std::size_t most = 65536;
+    const char *next = static_cast<const char *>(bytes);
+    while (n > 0) {
+        const std::size_t some = std::min(n, most - piece_.size());
+        piece_.append(next, some);
+        next += some;
+        n -= some;
+        if (piece_.size() == most) flush();
+    }
+}
+
+void HostSink::flush() {
+    if (piece_.empty()) return;
+    std::int32_t status;
+    {
+        const HostCode host(context_);
+        status = fn_(context_.handle, static_cast<std::int64_t>(piece_.size()), piece_.data(), user_);
+    }
+    piece_.clear();
+    if (status != 0)
+        throw Error(PLM_ERR_CALLBACK, format("the host's function to write by failed with code %d", status))
+            .argument("fn")
+            .library_code(status);
+}
+
+plm_status hand_bytes(BytesOf kind, const std::function<void(ByteWriter &)> &body, HostSink to) {
+    write_framed(kind, body, [&](const void *from, std::size_t n) { to(from, n); });
+    to.flush();
+    return PLM_OK;
+}
+
 ByteReader given_bytes(BytesOf kind, std::int64_t n, const void *bytes) {
     require_range(n, 1, INT64_MAX, "n");
     require_pointer(bytes, "bytes");
@@ -36,14 +69,26 @@ ByteReader given_bytes(BytesOf kind, std::int64_t n, const void *bytes) {
 
 using namespace plm::capi;
 
+namespace {
+
+std::function<void(plm::ByteWriter &)> body_of(const BasisHandle &b) {
+    return [core = built(b), work = b.work](plm::ByteWriter &to) {
+        to(work); // by which the effort of a search is measured
+        core->write(to);
+    };
+}
+
+} // namespace
+
 plm_status plm_basis_write(plm_basis *basis, std::int64_t capacity, void *bytes, std::int64_t *needed) {
     return call<BasisHandle>("plm_basis_write", basis, [&](BasisHandle &b) {
-        const std::shared_ptr<const plm::Basis> &core = built(b);
-        const auto body = [&](plm::ByteWriter &to) {
-            to(b.work); // by which the effort of a search is measured
-            core->write(to);
-        };
-        return put_bytes(plm::BytesOf::basis, body, capacity, bytes, needed);
+        return put_bytes(plm::BytesOf::basis, body_of(b), capacity, bytes, needed);
+    });
+}
+
+plm_status plm_basis_write_to(plm_basis *basis, plm_write_fn fn, void *user) {
+    return call<BasisHandle>("plm_basis_write_to", basis, [&](BasisHandle &b) {
+        return hand_bytes(plm::BytesOf::basis, body_of(b), HostSink(*b.owner, fn, user));
     });
 }
 

@@ -4,6 +4,7 @@
 #include "reduction/basis.hpp"
 #include "reduction/basis_kind.hpp"
 #include "reduction/reduced_model_bytes.hpp"
+#include "reduction/widened_model.hpp"
 #include "space/model_bytes.hpp"
 #include <algorithm>
 #include <cmath>
@@ -122,6 +123,7 @@ Basis::Basis(const Basis &read, std::shared_ptr<const Model> model)
     preload_residual_.get([&] { return read.preload_residual(); });
     const auto own = std::make_shared<ReducedModel>(*read.reduced_);
     own->model = model_;
+    if (!own->same_static) keep_widened(*own, loads_when_widened(*read.reduced_));
     reduced_ = own;
 }
 

@@ -1,4 +1,5 @@
 #include "reduction/reduced_model_bytes.hpp"
+#include "reduction/widened_model.hpp"
 #include "space/model_bytes.hpp"
 
 namespace plm {
@@ -90,7 +91,9 @@ void require_pairs(ByteReader &bytes, const ReducedModel &m, const Model &model)
 void write_whole(ByteWriter &bytes, const ReducedModel &reduced) {
     pass_equations(bytes, reduced);
     write_formed(bytes, reduced.vectors);
-    if (!reduced.same_static) write_formed(bytes, reduced.vectors_0);
+    if (reduced.same_static) return;
+    write_formed(bytes, reduced.vectors_0);
+    pass_loads(bytes, loads_when_widened(reduced));
 }
 
 std::shared_ptr<const ReducedModel> read_whole(ByteReader &bytes, std::shared_ptr<const Model> model) {
@@ -99,7 +102,12 @@ std::shared_ptr<const ReducedModel> read_whole(ByteReader &bytes, std::shared_pt
     pass_equations(bytes, *m);
     require_pairs(bytes, *m, *m->model);
     m->vectors = read_formed(bytes, *m->model, m->size());
-    if (!m->same_static) m->vectors_0 = read_formed(bytes, *m->model, m->static_size());
+    if (m->same_static) return m;
+    m->vectors_0 = read_formed(bytes, *m->model, m->static_size());
+    HarmonicLoads loads;
+    pass_loads(bytes, loads);
+    require_loads(bytes, loads, m->static_size(), m->static_size());
+    keep_widened(*m, loads);
     return m;
 }
 

@@ -137,6 +137,55 @@ static void a_table_of_the_curve(void **state) {
     BAD(plm_branch_write_csv(curve, 0, PLM_PEAK, 0, "no/such/folder/x.csv"), f, "path", "cannot be written");
 }
 
+/* Where the pieces go, and after how many of them there is no more room. */
+typedef struct {
+    char *bytes;
+    int64_t n, pieces, most;
+    plm_status inside;
+} kept;
+static int32_t keep(plm_context *c, int64_t n, const void *bytes, void *user) {
+    kept *k = user;
+    int64_t value;
+    if (k->pieces == k->most) return 28;
+    k->pieces++;
+    k->inside = plm_basis_get_int(basis, "size", &value); /* not from inside a call */
+    if (c != ctx || n < 1 || n > 65536 || !(k->bytes = realloc(k->bytes, (size_t)(k->n + n)))) return 1;
+    memcpy(k->bytes + k->n, bytes, (size_t)n);
+    k->n += n;
+    return 0;
+}
+
+static void handing_over(void **state) {
+    kept b = {NULL, 0, 0, -1, PLM_OK}, c = {NULL, 0, 0, -1, PLM_OK}, t = {NULL, 0, 0, -1, PLM_OK};
+    kept full = {NULL, 0, 0, 0, PLM_OK};
+    int64_t code = 0;
+    (void)state;
+    assert_true(done(ctx, plm_basis_write_to(basis, keep, &b)) &&
+                done(ctx, plm_branch_write_to(curve, keep, &c)));
+    assert_true(b.n == basis_size && memcmp(b.bytes, basis_bytes, (size_t)b.n) == 0);
+    assert_true(b.pieces == (basis_size + 65535) / 65536 && b.inside == PLM_ERR_BUSY);
+    assert_true(c.n == curve_size && memcmp(c.bytes, curve_bytes, (size_t)c.n) == 0);
+    assert_true(done(ctx, plm_branch_write_csv_to(curve, 3, PLM_PEAK, 0, keep, &t)));
+    assert_true(done(ctx, plm_branch_write_csv(curve, 3, PLM_PEAK, 0, "test_bytes.csv")));
+    FILE *file = fopen("test_bytes.csv", "rb");
+    char *text = malloc((size_t)t.n + 1);
+    assert_true(file && text && fread(text, 1, (size_t)t.n + 1, file) == (size_t)t.n &&
+                memcmp(text, t.bytes, (size_t)t.n) == 0);
+    fclose(file), remove("test_bytes.csv");
+    assert_true(refused(ctx, plm_basis_write_to(basis, keep, &full), PLM_ERR_CALLBACK, "plm_basis_write_to",
+                        "fn", -1, "code 28"));
+    assert_true(done(ctx, plm_context_get_int(ctx, "library_code", &code)) && code == 28);
+    BAD(plm_basis_write_to(basis, NULL, NULL), "plm_basis_write_to", "fn", "NULL");
+    BAD(plm_branch_write_to(curve, NULL, NULL), "plm_branch_write_to", "fn", "NULL");
+    BAD(plm_branch_write_csv_to(curve, 0, PLM_PEAK, 0, NULL, NULL), "plm_branch_write_csv_to", "fn", "NULL");
+    BAD(plm_branch_write_csv_to(curve, CHAIN_DOFS, PLM_PEAK, 0, keep, &full), "plm_branch_write_csv_to",
+        "dof", "24");
+    assert_int_equal(plm_basis_write_to(NULL, keep, &full), PLM_ERR_HANDLE);
+    assert_int_equal(plm_branch_write_to(NULL, keep, &full), PLM_ERR_HANDLE);
+    assert_true(full.n == 0 && !full.bytes);
+    free(b.bytes), free(c.bytes), free(t.bytes), free(text);
+}
+
 static void going_on(void **state) {
     const char *f = "plm_hbm_resume", *s = "plm_hbm_save_every", *path = "test_bytes_curve.plm";
     plm_branch *whole = NULL, *end = NULL, *none = NULL;

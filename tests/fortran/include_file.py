@@ -27,7 +27,8 @@ def by_rule(name):
 
 TYPES = {"integer(int64)": "INTEGER*8", "integer": "INTEGER", "real(real64)": "DOUBLE PRECISION",
          "character(len=*)": "CHARACTER*(*)", "procedure(log_subroutine)": "EXTERNAL",
-         "procedure(progress_subroutine)": "EXTERNAL", "procedure(recover_subroutine)": "EXTERNAL"}
+         "procedure(progress_subroutine)": "EXTERNAL", "procedure(recover_subroutine)": "EXTERNAL",
+         "procedure(write_subroutine)": "EXTERNAL"}
 
 
 def declared(body, name):

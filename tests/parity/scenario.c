@@ -337,6 +337,21 @@ static void print_whole_way(plm_model *model) {
     must(plm_hbm_destroy(&hbm));
 }
 
+/* Bytes, and the sum of their values, of pieces handed over. */
+static int32_t count_bytes(plm_context *c, int64_t n, const void *bytes, void *counted) {
+    (void)c;
+    ((double *)counted)[0] += (double)n;
+    for (int64_t i = 0; i < n; i++) ((double *)counted)[1] += ((const unsigned char *)bytes)[i];
+    return 0;
+}
+static void print_written(plm_basis *basis, plm_branch *curve) {
+    double b[2] = {0, 0}, c[2] = {0, 0}, t[2] = {0, 0};
+    must(plm_basis_write_to(basis, count_bytes, b));
+    must(plm_branch_write_to(curve, count_bytes, c));
+    must(plm_branch_write_csv_to(curve, WATCHED, PLM_HALF_PEAK_TO_PEAK, 0, count_bytes, t));
+    reals("written_basis", 1, b), reals("written_curve", 1, c), reals("written_table", 2, t);
+}
+
 /* Basis and curve through their bytes. */
 static void print_read(plm_model *model, plm_basis *basis, plm_branch *curve) {
     static char bytes[1 << 23];
@@ -345,6 +360,7 @@ static void print_read(plm_model *model, plm_basis *basis, plm_branch *curve) {
     plm_branch *read = NULL;
     int64_t n = 0;
     must(plm_basis_write(basis, sizeof bytes, bytes, &n));
+    print_written(basis, curve);
     must(plm_basis_read(ctx, n, bytes, &again));
     must(plm_basis_attach(again, model));
     must(plm_branch_write(curve, sizeof bytes, bytes, &n));

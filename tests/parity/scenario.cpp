@@ -200,8 +200,23 @@ void print_study(const plm::Model &model, const plm::Basis &basis, plm::Hbm &hbm
     print("study_amplitude", points.amplitude);
 }
 
+void print_written(const plm::Basis &basis, const plm::Branch &curve) {
+    double n = 0, sum = 0;
+    const auto count = [&](std::string_view piece) {
+        n += static_cast<double>(piece.size());
+        for (const char c : piece) sum += static_cast<unsigned char>(c);
+    };
+    basis.write_to(count);
+    print("written_basis", std::vector{n}), n = 0;
+    curve.write_to(count);
+    print("written_curve", std::vector{n}), n = 0, sum = 0;
+    curve.write_csv_to(count, watched);
+    print("written_table", std::vector{n, sum});
+}
+
 void print_read(const plm::Context &context, const plm::Model &model, const plm::Basis &basis,
                 const plm::Branch &curve) {
+    print_written(basis, curve);
     plm::Basis again = plm::Basis::from_bytes(context, basis.to_bytes());
     again.attach(model);
     const plm::Branch read = again.read_branch(curve.to_bytes());

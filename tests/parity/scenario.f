@@ -315,6 +315,7 @@ C     points count from 1 here.
       SAVE STATE
       IAGAIN = 0
       IREAD = 0
+      CALL SHOWTO(IBASIS, CURVE)
       CALL PLMBWR(IBASIS, STATE, NBYTES, IERR)
       CALL MUST(IERR)
       CALL PLMBRD(LCTX, NBYTES, STATE, IAGAIN, IERR)
@@ -335,6 +336,40 @@ C     points count from 1 here.
       CALL MUST(IERR)
       CALL PLMBDE(IAGAIN, IERR)
       CALL MUST(IERR)
+      END
+
+      SUBROUTINE SHOWTO(IBASIS, CURVE)
+      INCLUDE 'plmf.inc'
+      INTEGER*8 IBASIS, CURVE
+      INTEGER IERR
+      DOUBLE PRECISION X(2)
+      COMMON /COUNTD/ X
+      EXTERNAL COUNTB
+      X(1) = 0
+      CALL PLMBWT(IBASIS, COUNTB, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('written_basis', 1, X)
+      X(1) = 0
+      CALL PLMRWT(CURVE, COUNTB, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('written_curve', 1, X)
+      X(1) = 0
+      X(2) = 0
+      CALL PLMRCW(CURVE, 8, PLMPPM, 0, COUNTB, IERR)
+      CALL MUST(IERR)
+      CALL SHOW('written_table', 2, X)
+      END
+
+      SUBROUTINE COUNTB(NBYTES, STATE, IFAIL)
+      INTEGER NBYTES, IFAIL, I
+      CHARACTER*(*) STATE
+      DOUBLE PRECISION X(2)
+      COMMON /COUNTD/ X
+      IF (NBYTES .LT. 1) IFAIL = 1
+      X(1) = X(1) + NBYTES
+      DO 10 I = 1, NBYTES
+          X(2) = X(2) + ICHAR(STATE(I:I))
+   10 CONTINUE
       END
 
       SUBROUTINE SHORES(MODEL, IBASIS)

@@ -1,7 +1,35 @@
 ! scenario.f90: the scene of scenario.c in modern Fortran. DOFs, pairs and points count from 1 here.
+module counting
+    use, intrinsic :: iso_fortran_env, only: int8, real64
+    use plm, only: plm_writer
+    implicit none
+    private
+    public :: counter
+
+    ! bytes, and the sum of their values, of pieces handed over
+    type, extends(plm_writer) :: counter
+        real(real64) :: n = 0, total = 0
+    contains
+        procedure :: write => count_bytes
+    end type counter
+
+contains
+
+    subroutine count_bytes(self, bytes, failed)
+        class(counter), intent(inout) :: self
+        integer(int8), intent(in) :: bytes(:)
+        logical, intent(inout) :: failed
+        failed = size(bytes) < 1
+        self%n = self%n + size(bytes)
+        self%total = self%total + sum(real(iand(int(bytes), 255), real64))
+    end subroutine count_bytes
+
+end module counting
+
 program scenario
     use, intrinsic :: iso_fortran_env, only: int8, real64, output_unit
     use plm
+    use counting, only: counter
     implicit none
     integer, parameter :: n_masses = 10, n_harmonics = 5, n_times = 8, watched = 8
     integer :: relative ! output
@@ -225,6 +253,13 @@ contains
         integer(int8), allocatable :: bytes(:)
         real(real64), allocatable :: values(:)
         real(real64) :: residual
+        type(counter), target :: of_basis, of_curve, of_table
+        call basis%write_to(of_basis)
+        call show('written_basis', [of_basis%n])
+        call curve%write_to(of_curve)
+        call show('written_curve', [of_curve%n])
+        call curve%write_csv_to(of_table, watched)
+        call show('written_table', [of_table%n, of_table%total])
         call basis%to_bytes(bytes)
         call again%read(context, bytes)
         call again%attach(model)

@@ -174,6 +174,11 @@ def show_response(basis):
     show_resumed(hbm)
     peak = hbm.find_peak(curve, WATCHED)
     show("peak", [peak.frequency_hz, peak.amplitude])
+    for name, write, count in (("basis", basis.write_to, 1), ("curve", curve.write_to, 1),
+                               ("table", lambda f: curve.write_csv_to(f, WATCHED), 2)):
+        pieces = []
+        write(pieces.append)
+        show(f"written_{name}", [float(len(b"".join(pieces))), float(sum(b"".join(pieces)))][:count])
     again = plm.Basis.from_bytes(basis.to_bytes(), basis.context).attach(basis.model)
     read = plm.Branch.from_bytes(again, curve.to_bytes())
     show("read_amplitude", read.amplitude(WATCHED))

@@ -98,3 +98,17 @@ def damped_chain(ratio):
     m.add_gap_rows(numpy.eye(7)[4:5], 1 / numpy.linalg.inv(stiffness)[4, 4])
     m.set_excitation(numpy.eye(7)[0])
     return m.build()
+
+
+def pressed_chain():
+    """Two hundred masses between a wall and stops, which the pre-load presses upon: the statics have directions of their own (P_0 is another
+    one than P), and one damping ratio for all modes couples them."""
+    n = 200
+    stiffness = 1e4 * (2 * numpy.eye(n) - numpy.eye(n, k=1) - numpy.eye(n, k=-1))
+    m = plm.Model(numpy.diag(numpy.linspace(0.8, 1.2, n)), stiffness)
+    m.set_modal_damping(0.01)
+    m.add_gap_rows(numpy.eye(n)[[50, 100, 150]], 1e4)
+    m.set_preload(numpy.linspace(-1, 3, n))
+    m.set_excitation(5 * numpy.eye(n)[75])
+    m.build()
+    return plm.Basis(m, plm.Sampler(m).run()).build()

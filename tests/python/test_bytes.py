@@ -53,6 +53,32 @@ def same(one, other):
     return all(numpy.array_equal(a, b) for a, b in zip(one, other))
 
 
+class Pieces(unittest.TestCase):
+    def test_pieces_are_the_bytes(self):
+        basis = models.pressed_chain()  # of more bytes than one piece has
+        pieces, table = [], []
+        basis.write_to(pieces.append)
+        self.assertEqual(b"".join(pieces), basis.to_bytes())
+        self.assertGreater(len(pieces), 1)
+        self.assertLessEqual(max(map(len, pieces)), 65536)
+        curve = plm.Hbm(models.basis(), n_harmonics=3).sweep()
+        curve.write_csv_to(table.append, models.WATCHED)
+        rows = list(csv.DictReader(b"".join(table).decode("ascii").splitlines()))
+        numpy.testing.assert_array_equal([float(row["amplitude"]) for row in rows], curve.amplitude(models.WATCHED))
+
+    def test_what_the_function_raises_comes_back_and_ends_the_writing(self):
+        basis, calls = models.basis(), []
+
+        def full(piece):
+            calls.append(piece)
+            raise OSError(28, "No space left on device")
+        with self.assertRaises(OSError):
+            basis.write_to(full)
+        self.assertEqual(len(calls), 1)
+        with self.assertRaisesRegex(TypeError, "a function of bytes"):
+            basis.write_to("basis.plm")
+
+
 class Bases(unittest.TestCase):
     def test_four_processes_sweep_four_levels_with_the_digits_of_one(self):
         basis = models.basis()

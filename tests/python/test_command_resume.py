@@ -1,11 +1,13 @@
 """plm response --save-every and plm resume: a response that was stopped ends with the curve that it would have had."""
 import re
 import unittest
+import unittest.mock
 import warnings
 
 import numpy
 import plm
 from command_case import Folder
+from plm.command import response
 
 
 class Resumed(Folder):
@@ -32,6 +34,34 @@ class Resumed(Folder):
         self.assertTrue(numpy.array_equal(one[:, 0], other[:, 0]))
         self.assertLess(abs(one[:, 1] / other[:, 1] - 1).max(), 1e-10)  # extrema of what was read are found anew
         self.assertIn("has the whole curve", self.here("resume", self.path("case.toml"), "--out", out)[1])
+
+    def test_a_basis_that_is_refined_is_left_there_too(self):
+        case, out, refined = self.path("case.toml"), self.path("out"), self.folder / "out/refined_curve.plm"
+        real, calls = response._on_basis, []
+
+        def first_is_too_small(basis, *arguments):
+            found, told = real(basis, *arguments)
+            calls.append(basis)
+            return (found._replace(error=0.5) if len(calls) == 1 else found), told
+        for command in ("response", "resume"):
+            calls.clear()
+            with unittest.mock.patch.object(response, "_on_basis", first_is_too_small):
+                said, told = self.here(command, case, "--out", out, *(["--save-every", "5"] if command == "response" else []))
+            self.assertEqual(len(calls), 2)
+            self.assertIn("basis.plm, curve.plm, refined_basis.plm, refined_curve.plm", said)
+            if command == "response":
+                whole = (self.folder / "out/response.csv").read_text()
+                basis = plm.Basis.from_bytes((self.folder / "out/refined_basis.plm").read_bytes(), plm.Context())
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    refined.write_bytes(plm.Hbm(basis, accuracy=1e-3, max_points=13).sweep().to_bytes())
+        self.assertIn("out/curve.plm has the whole curve", told)
+        self.assertIn("refined_curve.plm has 13 points; the curve goes on", told)
+        one, other = (numpy.loadtxt(text.splitlines(), delimiter=",", skiprows=1)
+                      for text in (whole, (self.folder / "out/response.csv").read_text()))
+        self.assertTrue(numpy.array_equal(one[:, 0], other[:, 0]))
+        self.here("response", case, "--save-every", "5", "--out", out)  # another curve begins: what belongs to the last one goes
+        self.assertFalse(refined.exists())
 
     def test_mistakes(self):
         case, out = self.path("case.toml"), self.path("out")

@@ -118,6 +118,19 @@ class Resumed(unittest.TestCase):
                 data = pool.apply(resume_elsewhere, ((basis.to_bytes(), part.to_bytes(), options),))
             self.assertTrue(same(plm.Branch.from_bytes(basis, data), whole), options)
 
+    def test_static_directions_of_their_own(self):
+        """Exact motions then have P_0 in the place of P: its loads, damping and all come back from bytes with their digits."""
+        basis = models.pressed_chain()
+        self.assertGreater(basis.static_size, basis.size)
+        read = plm.Basis.from_bytes(basis.to_bytes(), plm.Context())
+        again = plm.Basis.from_bytes(read.to_bytes(), basis.context).attach(basis.model)
+        for options in ({}, {"n_harmonics": 3}):
+            whole = quietly(plm.Hbm(basis, **options, max_points=12).sweep)
+            part = quietly(plm.Hbm(basis, **options, max_points=6).sweep).to_bytes()
+            for other in (read, again):
+                resumed = quietly(plm.Hbm(other, **options, max_points=12).resume, plm.Branch.from_bytes(other, part))
+                self.assertTrue(same(resumed, whole), options)
+
     def test_what_it_cost_is_counted_as_if_it_had_never_stopped(self):
         basis = models.basis()
         for options in ({}, {"n_harmonics": 7}):

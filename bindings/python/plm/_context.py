@@ -113,6 +113,14 @@ class _Host:
         return 0 if self.guarded(run) else 1
 
 
+    @callback
+    def on_write(self, write, _ctx, n, data, _user):
+        def run():
+            write(ctypes.string_at(data, n))
+            return True
+        return 0 if self.guarded(run) else 1
+
+
 class Context:
     """What models share: log, progress, solver, the last error. Belongs to one thread at a time.
 

@@ -244,6 +244,13 @@ def reduction(folder):
     # [Branch.to_bytes] [Branch.from_bytes]
     curve = plm.Branch.from_bytes(basis, curve.to_bytes())
     # [Branch.to_bytes] [Branch.from_bytes]
+    # [Basis.write_to] [Branch.write_to] [Branch.write_csv_to]
+    with open(os.path.join(folder, "basis.plm"), "wb") as file:
+        basis.write_to(file.write)
+    pieces = []  # or to a socket, a database, an archive
+    curve.write_to(pieces.append)
+    curve.write_csv_to(pieces.append, dof=1)
+    # [Basis.write_to] [Branch.write_to] [Branch.write_csv_to]
 
 
 def response(folder):

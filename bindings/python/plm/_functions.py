@@ -13,6 +13,7 @@ SOLVE_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.c_int64, po
 FREE_FACTOR_FN = ctypes.CFUNCTYPE(None, pointer, pointer, pointer)
 INERTIA_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, pointer, ctypes.POINTER(ctypes.c_int64), pointer)
 RECOVER_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int64, ctypes.c_int64, pointer, ctypes.c_int64, pointer, pointer)
+WRITE_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int64, pointer, pointer)
 TALL_FN = ctypes.CFUNCTYPE(ctypes.c_int32, pointer, ctypes.c_int32, pointer, pointer, pointer, pointer, pointer)
 
 # One letter per argument: i int32_t, q int64_t, d double, s text in, p any other pointer; then their names.
@@ -127,6 +128,7 @@ FUNCTIONS = {
     "plm_basis_get_vectors": "piqqpq basis is_static first n vector ld",
     "plm_basis_get_residual": "piiqpp basis is_static use_mass n q r",
     "plm_basis_write": "pqpp basis capacity bytes needed",
+    "plm_basis_write_to": "ppp basis fn user",
     "plm_basis_read": "pqpp ctx n bytes basis",
     "plm_basis_attach": "pp basis model",
     "plm_hbm_create": "pp basis hbm",
@@ -169,8 +171,10 @@ FUNCTIONS = {
     "plm_branch_get_periodicity_defect": "pqp branch point defect",
     "plm_branch_get_full_residual": "pqp branch point relative_residual",
     "plm_branch_write": "pqpp branch capacity bytes needed",
+    "plm_branch_write_to": "ppp branch fn user",
     "plm_branch_read": "pqpp basis n bytes branch",
     "plm_branch_write_csv": "pqiis branch dof measure harmonic path",
+    "plm_branch_write_csv_to": "pqiipp branch dof measure harmonic fn user",
     "plm_branch_describe": "pqpp branch capacity buffer needed",
     "plm_transient_create": "ppp model basis transient",
     "plm_transient_destroy": "p transient",

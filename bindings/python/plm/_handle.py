@@ -1,6 +1,7 @@
 """Handles, and their options and results as attributes made from the library's own table."""
 import ctypes
 import difflib
+import functools
 import numbers
 import re
 from typing import NamedTuple
@@ -117,6 +118,12 @@ class Handle:
         data = ctypes.create_string_buffer(needed.value)
         self._call("write", needed.value, data, ctypes.byref(needed))
         return data.raw
+
+    def _hand_to(self, write, function, *arguments):
+        """By one of the functions that hand bytes to one of the user's."""
+        if not callable(write):
+            raise TypeError(f"write is {write!r}; needed is a function of bytes, as the write of a file opened with 'wb'")
+        self._call(function, *arguments, _c.WRITE_FN(functools.partial(self.context._host.on_write, write)), None)
 
     def __setattr__(self, name, value):
         if name.startswith("_") or hasattr(type(self), name):

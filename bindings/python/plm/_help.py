@@ -102,6 +102,7 @@ ARGUMENTS = {
     "v": "n_dof velocities (length/time); None: zero",
     "value": "int, float or str",
     "weight": "n weights > 0, or one number; None: all alike",
+    "write": "a function of bytes, called with piece after piece",
     "xyz": "n x 3 coordinates (length)",
 }
 OTHERWISE = {  # where a name means something of its own
@@ -128,7 +129,7 @@ OTHERWISE = {  # where a name means something of its own
        (("add_distributing_coupling", "3"), ("add_ground_contacts", "3"), ("add_surface", "3"), ("set_coordinates", "3 or 6"))},
     **{f"Model.{method}.dof": "numbers of DOFs, from 0" for method in ("set_elimination_order", "set_multipliers")},
     **{f"{owner}.harmonic": "number of the harmonic where measure is \"harmonic\"; 0: the mean" for owner in
-       ("Model.recover_amplitude", "Hbm.estimate_error", "Hbm.find_peak", "Hbm.refine_basis", "Branch.amplitude", "Branch.write_csv", "Study.set_output")},
+       ("Model.recover_amplitude", "Hbm.estimate_error", "Hbm.find_peak", "Hbm.refine_basis", "Branch.amplitude", "Branch.write_csv", "Branch.write_csv_to", "Study.set_output")},
 }
 
 

@@ -90,6 +90,11 @@ class Basis(BasisMethods, Handle, noun="basis", kind=_c.KIND_BASIS):
         bytes."""
         return self._bytes()
 
+    def write_to(self, write):
+        """The same bytes to a function of bytes, as the write of a file opened with "wb", piece after piece: no second copy of
+        the basis is in memory."""
+        self._hand_to(write, "write_to")
+
     def attach(self, model):
         """Gives a basis that was read the model that it was made of: full residual, error estimates and refinement work
         again. plm.PlmError for another one. Returns the basis."""

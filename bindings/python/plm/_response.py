@@ -267,10 +267,18 @@ class Branch(BranchMethods, Handle, noun="branch", kind=_c.KIND_BRANCH):
         """Its points and how it ended, to be kept in a file, and read by from_bytes()."""
         return self._bytes()
 
+    def write_to(self, write):
+        """The bytes of to_bytes() to a function of bytes, as the write of a file opened with "wb", piece after piece."""
+        self._hand_to(write, "write_to")
+
     def write_csv(self, path, dof, measure="half_peak_to_peak", harmonic=0):
         """The curve as a file of comma-separated text, replaced as a whole: frequency_hz, amplitude of the DOF, arclength,
         force_scale, stable, bifurcation, residual, iterations, n_harmonics, harmonic_error, n_switching."""
         self._call("write_csv", dof, choice(measure, MEASURES, "measure"), harmonic, os.fsencode(path))
+
+    def write_csv_to(self, write, dof, measure="half_peak_to_peak", harmonic=0):
+        """The text of write_csv() to a function of bytes, piece after piece."""
+        self._hand_to(write, "write_csv_to", dof, choice(measure, MEASURES, "measure"), harmonic)
 
     def describe(self):
         """A page of text about the curve: model, basis, peak, stability, other motions, error and by what it was judged,

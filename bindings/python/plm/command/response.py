@@ -110,8 +110,13 @@ def _in_range(model, dof, low, high, settings, progress, saved):
     if not found.error <= settings["accuracy"] and _is_inside(found.frequency_hz, found.curve):
         with contextlib.suppress(PlmError):  # then the first answer stands, with its error
             first = _solver(basis, low, high, settings)
-            refined = first.refine_basis(dof, settings["accuracy"], settings["measure"], progress=progress)
-            better, of_better = _on_basis(refined.basis, dof, low, high, settings, progress)
+
+            def refine():
+                return first.refine_basis(dof, settings["accuracy"], settings["measure"], progress=progress).basis
+            if saved:
+                saved.go_on_refined()
+            larger = saved.basis(model, refine) if saved else refine()
+            better, of_better = _on_basis(larger, dof, low, high, settings, progress, saved)
             if better.error <= found.error or math.isnan(found.error):
                 found, told = better, of_better
     for one in told:

@@ -11,7 +11,7 @@ ELEMENT = "MASS"
 
 def with_point_masses(deck, matrices):
     """plm.fe.matrices.Matrices with the masses; nodes that have no rows get three of their own."""
-    masses = _masses(deck)
+    masses = point_masses(deck)
     if not masses:
         return matrices
     dofs = [(node, direction) for node in masses for direction in (1, 2, 3)]
@@ -32,7 +32,7 @@ def _widened(matrix, n):
     return wide
 
 
-def _masses(deck):
+def point_masses(deck):
     """{node: mass} of all elements of the type MASS."""
     values = _values(deck)
     masses = {}

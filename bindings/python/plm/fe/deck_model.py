@@ -31,6 +31,16 @@ def build_model(deck, context=None, *, force=None, preload=True, contact_stiffne
     if deck.matrices is None:
         deck.matrices_by_calculix()
     model = _with_matrices(deck, context, options)
+    hand_over(deck, model, force=force, preload=preload, contact_stiffness=contact_stiffness, search=search, closed=closed,
+              symmetric=symmetric, smooth=smooth)
+    return model.build() if build else model
+
+
+def hand_over(deck, model, *, force=None, preload=True, contact_stiffness=None, search=None, closed=None, symmetric=False, smooth=False):
+    """Tells `model` all that a deck says beside its matrices: damping, supports, constraints, contact, coordinates, loads; the options
+    are those of build_model. model: a plm.Model, or anything with the methods of one that are called, as a host has that writes
+    them down (examples/calculix)."""
+    _add_damping(deck, model)
     _add_supports(deck, model)
     surfaces = SurfaceTable(deck, model)
     _add_constraints(deck, model, surfaces)
@@ -40,7 +50,6 @@ def build_model(deck, context=None, *, force=None, preload=True, contact_stiffne
     _add_coordinates(deck, model)
     _add_loads(deck, model, force, preload)
     _tell_unread(deck)
-    return model.build() if build else model
 
 
 def _add_coordinates(deck, model):
@@ -83,14 +92,16 @@ def _with_matrices(deck, context, options):
     if getattr(deck.matrices, "structural_damping", None) is not None:
         warnings.warn(PlmWarning("the matrices have structural damping, which a model takes as one loss factor: set_structural_damping; "
                                  "left out here"), stacklevel=4)
-    model = Model(*given, context=context, **options)
+    return Model(*given, context=context, **options)
+
+
+def _add_damping(deck, model):
     if deck.rayleigh:
         model.set_rayleigh_damping(*deck.rayleigh)
     if deck.modal_damping and len(deck.modal_damping) == 1:
         model.set_modal_damping(deck.modal_damping[0])
     elif deck.modal_damping:
         model.set_rayleigh_damping(*deck.modal_damping)
-    return model
 
 
 # ---- supports ----
@@ -230,4 +241,4 @@ def _tell_unread(deck):
     if deck.unread:
         shown = "; ".join(f"{file}:{line}: {text}" for file, line, text in deck.unread[:3])
         more = f", and {len(deck.unread) - 3} more (deck.unread has all)" if len(deck.unread) > 3 else ""
-        warnings.warn(PlmWarning(f"of the deck this was not taken: {shown}{more}"), stacklevel=4)
+        warnings.warn(PlmWarning(f"of the deck this was not taken: {shown}{more}"), stacklevel=5)

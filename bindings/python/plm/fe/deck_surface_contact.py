@@ -44,7 +44,7 @@ def add_contact(deck, model, surfaces, pair, stiffness, search, closed, symmetri
         if stiffness is not None and not slave.faces and slave.areas is None:
             stiffness = None
             warnings.warn(PlmWarning(f"{pair.file}:{pair.line}: the slave {pair.slave} has nodes without areas, so that the "
-                                     "deck's stiffness by area says nothing; the library chooses the stiffness"), stacklevel=5)
+                                     "deck's stiffness by area says nothing; the library chooses the stiffness"), stacklevel=6)
     number = surfaces.number(pair.slave)
     if pair.clearance is not None:
         number = _moved(deck, model, surfaces, pair, search)

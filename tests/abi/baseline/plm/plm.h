@@ -213,6 +213,10 @@ typedef int32_t (*plm_inertia_fn)(plm_context *ctx, void *factor, int64_t *negat
 typedef int32_t (*plm_recover_fn)(plm_context *ctx, int64_t n_dof, int64_t n_columns, const double *reduced,
                                   int64_t n_full, double *full, void *user);
 
+/* The next n bytes of a state or text, in order, to wherever the host keeps them. Return 0, or a number that ends the
+ * writing: PLM_ERR_CALLBACK with that number as library_code. */
+typedef int32_t (*plm_write_fn)(plm_context *ctx, int64_t n, const void *bytes, void *user);
+
 /* Tall operations: what a model does with things of n_dof rows where the host keeps these (in several processes, out of
  * core, without an assembled matrix) and implements the operations below in one function. One call does one operation;
  * calls never overlap and come on the thread that called the library. Return 0, or a number that fails the library's call
@@ -817,6 +821,9 @@ PLM_API plm_status plm_basis_get_residual(plm_basis *basis, int32_t is_static, i
  * 8 n_dof (columns of P and P_0) bytes, not the matrices of the structure; P is formed for it. needed: their number, with
  * bytes = NULL and capacity = 0 all that is asked for; PLM_ERR_ARGUMENT where capacity is smaller. */
 PLM_API plm_status plm_basis_write(plm_basis *basis, int64_t capacity, void *bytes, int64_t *needed);
+/* The same bytes to a function of the host, for files, sockets and databases of its own: in pieces of 1 to 65,536 bytes, so
+ * that no second copy of the basis is in memory. */
+PLM_API plm_status plm_basis_write_to(plm_basis *basis, plm_write_fn fn, void *user);
 /* The basis in n bytes, built: it sweeps, solves, finds peaks and other branches at once, with the numbers of the one it
  * was written from to the last digit, amplitudes of all DOFs included. What asks the structure itself (full residual,
  * error estimates of harmonic balance, refinement) answers PLM_ERR_STATE until plm_basis_attach(); a curve that would
@@ -1013,6 +1020,8 @@ PLM_API plm_status plm_branch_get_full_residual(plm_branch *branch, int64_t poin
  * asked for amplitudes, fields and contact, how it ended, and what plm_hbm_resume goes on from where it did not come to its
  * end. Not the basis that it was computed on. */
 PLM_API plm_status plm_branch_write(plm_branch *branch, int64_t capacity, void *bytes, int64_t *needed);
+/* The same bytes to a function of the host, as by plm_basis_write_to(). */
+PLM_API plm_status plm_branch_write_to(plm_branch *branch, plm_write_fn fn, void *user);
 /* The branch in n bytes, on the basis that it was computed on or on one read from the bytes of that: it is what it was to
  * every function that takes a branch. Points are the same to the last digit; extrema of exact motions, which are found
  * anew, to rounding. PLM_ERR_ARGUMENT for bytes that are damaged, and for another basis, told by a fingerprint. */
@@ -1023,6 +1032,9 @@ PLM_API plm_status plm_branch_read(plm_basis *basis, int64_t n, const void *byte
  * written under another name beside, brought to the disk and renamed. PLM_ERR_ARGUMENT where that cannot be. */
 PLM_API plm_status plm_branch_write_csv(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
                                         const char *path);
+/* The same text to a function of the host, as by plm_basis_write_to(). */
+PLM_API plm_status plm_branch_write_csv_to(plm_branch *branch, int64_t dof, int32_t measure, int32_t harmonic,
+                                           plm_write_fn fn, void *user);
 /* A page of text about the curve, to be printed or kept with the results: model and what was left out, basis, curve with
  * its folds and bifurcations, peak, stability, other motions at this force, error and by what it was judged, warnings with
  * their remedies, times. Peak, error and larger motions are those that earlier calls found of this curve:
