@@ -1,6 +1,7 @@
 % octave-cli nlvib.m SRC CASE H: the curve of one structure by NLvib (a folder with its SRC), for measure.py.
 % CASE is a folder with M, D, K, W (a column for each stop), k and f (columns of numbers), range (two circular frequencies) and observed
-% (a DOF from 1), as text. Prints circular frequency, half peak to peak and seconds of the processor of the highest point of the curve.
+% (a DOF from 1), as text. Prints circular frequency and half peak to peak of the highest point of the curve (NaN
+% where that is the last one, before the end of the range), and seconds of the processor.
 args = argv();
 addpath(args{1}); addpath(fullfile(args{1}, 'MechanicalSystems'));
 read = @(name) load('-ascii', fullfile(args{2}, name));
@@ -27,5 +28,6 @@ t = (0:1999)' / 2000 * 2 * pi;
 series = [ones(size(t)), reshape([cos(t * (1:H)); sin(t * (1:H))], numel(t), [])];
 motion = series * X(observed:n:end - 1, :);
 [amplitude, highest] = max((max(motion) - min(motion)) / 2);
-printf('%.12g %.12g %.6g %d\n', X(end, highest), amplitude, seconds, columns(X));
+if highest == columns(X), amplitude = NaN; end % the continuation ended on its way up
+printf('%.12g %.12g %.6g\n', X(end, highest), amplitude, seconds);
 clear system; % or Octave 7 ends with an error about an object
