@@ -180,8 +180,8 @@ contains
             call refuse('add_constraints: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
-            call refuse('add_constraints: row_ptr ends behind the end of dof', stat, errmsg)
+        if (row_ptr(size(row_ptr)) /= size(dof) + 1) then
+            call refuse('add_constraints: the last of row_ptr is not the number of entries of dof, and one', stat, errmsg)
             return
         end if
         call finish(self%context, plm_model_add_constraints(self%handle, 1_c_int32_t, size(row_ptr, kind=int64) - 1, &
@@ -202,8 +202,8 @@ contains
             call refuse('add_outputs: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
-            call refuse('add_outputs: row_ptr ends behind the end of dof', stat, errmsg)
+        if (row_ptr(size(row_ptr)) /= size(dof) + 1) then
+            call refuse('add_outputs: the last of row_ptr is not the number of entries of dof, and one', stat, errmsg)
             return
         end if
         first = 0
@@ -286,8 +286,8 @@ contains
             call refuse('add_tie: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (face_ptr(size(face_ptr)) > size(face_node) + 1) then
-            call refuse('add_tie: face_ptr ends behind the end of face_node', stat, errmsg)
+        if (face_ptr(size(face_ptr)) /= size(face_node) + 1) then
+            call refuse('add_tie: the last of face_ptr is not the number of entries of face_node, and one', stat, errmsg)
             return
         end if
         if (present(distance)) then
@@ -318,8 +318,8 @@ contains
             return
         end if
         if (size(face_ptr) > 0) then
-            if (face_ptr(size(face_ptr)) > size(face_node) + 1) then
-                call refuse('add_surface: face_ptr ends behind the end of face_node', stat, errmsg)
+            if (face_ptr(size(face_ptr)) /= size(face_node) + 1) then
+                call refuse('add_surface: the last of face_ptr is not the number of entries of face_node, and one', stat, errmsg)
                 return
             end if
         end if
@@ -420,8 +420,8 @@ contains
             call refuse('add_gap_rows: the shapes of the arrays do not fit', stat, errmsg)
             return
         end if
-        if (row_ptr(size(row_ptr)) > size(dof) + 1) then
-            call refuse('add_gap_rows: row_ptr ends behind the end of dof', stat, errmsg)
+        if (row_ptr(size(row_ptr)) /= size(dof) + 1) then
+            call refuse('add_gap_rows: the last of row_ptr is not the number of entries of dof, and one', stat, errmsg)
             return
         end if
         if (present(gap)) then

@@ -1,6 +1,7 @@
 /* study_report.c: report.md, with the pictures that plot_study.py will draw. */
 #include <inttypes.h>
 #include <math.h>
+#include <time.h>
 
 #include "study.h"
 
@@ -126,6 +127,12 @@ static void write_refined(const study_case *c, const study_result *one, FILE *to
     study_write_refined(to, one);
 }
 
+static void write_day(FILE *to) {
+    char day[16];
+    const time_t now = time(NULL);
+    if (strftime(day, sizeof day, "%Y-%m-%d", localtime(&now))) fprintf(to, "* Measured on %s.\n", day);
+}
+
 int study_write_report(study_case *c, const study_findings *f) {
     const study_options *o = c->options;
     FILE *to = study_open_file(o, "report.md");
@@ -133,6 +140,7 @@ int study_write_report(study_case *c, const study_findings *f) {
     fprintf(to, "# Error against run time: %s, %s pre-load\n\n", o->scene,
             o->with_preload ? "with" : "without");
     fprintf(to, "    OPENBLAS_NUM_THREADS=1 %s\n    plot_study.py %s\n\n", o->command, o->output);
+    write_day(to);
     study_write_case(c, to);
     write_reference(f->one ? f->one : f->levels, to);
     write_legend(to);

@@ -319,6 +319,7 @@ def draw_svd(axes, run):
         axes.annotate(row["basis_size"], (tolerance, max(number(row, "amplitude_error"), 1e-12)), fontsize=8,
                       textcoords="offset points", xytext=(4, 4), color=FAINT)
     axes.set(xscale="log", yscale="log", xlabel="svd_tolerance (and size)")
+    axes.margins(0.12)
 
 
 def plot_convergence(study, path):
@@ -339,8 +340,10 @@ def plot_convergence(study, path):
             place.grid(alpha=0.3)
         for place in axes[:, 0]:
             place.set_ylabel("relative error")
-        axes[0, 1].legend(fontsize=8)
-    return save(figure, axes[0, 0], study.title(), 4, path)
+        for line in axes[0, 1].lines:  # named above all, where no legend lies on a curve
+            axes[0, 0].plot([], [], ls=line.get_linestyle(), marker=line.get_marker(), color=line.get_color(),
+                            label=f"iteration: {line.get_label()}")
+    return save(figure, axes[0, 0], study.title(), 3, path)
 
 
 def draw_all(study):

@@ -96,8 +96,8 @@ class Entries {
     [[noreturn]] void not_semi_definite(std::int64_t dof) const {
         fail(status::not_positive_definite, dof,
              format("the matrix is indefinite, as DOF %lld (counted from 0) shows together with those before "
-                    "it; mass and stiffness of a superelement are positive semi-definite: look at the "
-                    "reduction that made them, and at signs",
+                    "it; mass and stiffness are positive semi-definite: look at signs and, of a "
+                    "superelement, at the reduction that made them",
                     Int(dof)));
     }
 

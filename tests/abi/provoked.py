@@ -190,6 +190,11 @@ refused("docs.reasons", "a reason without a row", "PLM_REASON_TIE: no row", pyth
 changed(source / "docs/choosing.md", "may be on another branch", "may lie on another branch", "tree/docs/choosing.md")
 refused("docs.reasons", "words that no text has", "no text of the library says 'may lie on another branch'", python,
         tests / "docs/reasons.py", tree)
+changed(source / "docs/warnings.md", r'^\| "join component".*\n', "", "tree/docs/warnings.md")
+refused("docs.warnings", "a text without a row", "no words of docs/warnings.md are in '.*join component", python, tests / "docs/warning_words.py",
+        tree)
+changed(source / "docs/warnings.md", '"join component"', '"couple component"', "tree/docs/warnings.md")
+refused("docs.warnings", "words that no text has", "no warning has the words 'couple component'", python, tests / "docs/warning_words.py", tree)
 (tree / "src/space/rest.hpp").unlink()
 refused("docs.sources", "a source file that moved", "Rest: space/rest.hpp is not at src/space/rest.hpp", python,
         tests / "docs/sources.py", tree)

@@ -61,7 +61,8 @@ cat <<END
 
     sh tests/bench/build_sizes.sh
 
-\`$(${CC:-cc} --version | head -1)\`, \`CMAKE_BUILD_TYPE=Release\`, everything stripped; 1 kB = 1000 bytes.
+\`$(${CC:-cc} --version | head -1)\`, \`CMAKE_BUILD_TYPE=Release\`, everything stripped; 1 kB = 1000 bytes. Measured on
+$(date +%Y-%m-%d).
 
 | build | libplm.so (kB) | exported functions | host (kB) | functions of libplm in it | host, archives too (kB) | what it still loads |
 |---|--:|--:|--:|--:|--:|---|

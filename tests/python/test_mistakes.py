@@ -125,6 +125,7 @@ MISTAKES = [
     ("index base 0 said, 1 given", lambda: set_matrix(0, plm.CSR, [1, 2, 3], [1, 2]), "a.0. = 1 must be the index base 0", "check index_base"),
     ("index base 1 said for triplets", lambda: set_matrix(1, plm.TRIPLETS, [0, 1], [0, 1]), "a.0. = 0 is no row number", "1..2; check index_base"),
     ("a slope for a deflection", lambda: run(row=unit(TIP + 1)), "touch no DOF of a translation", "off by one.*Translations are DOFs 0, 2"),
+    ("the system in place of the number of modes", lambda: model().modes("open", 2), "n is .open.; the number of modes comes first", "modes.2, .open.\\)"),
     ("a DOF that is none", lambda: model(fixed=(0, DOFS)), f"dof.1. = {DOFS} is no DOF number", f"must lie in 0..{DOFS - 1}"),
     ("a DOF twice in a row, summed up", lambda: model(row=unit(TIP, 2.0)), "far from unit length", "a DOF given twice adds up"),
     ("a DOF twice in a row", same_dof_twice_in_a_row, "stands twice in gap row 0", "sum its coefficients"),

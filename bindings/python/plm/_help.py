@@ -190,3 +190,14 @@ def attach(classes, functions):
             one.__doc__ = text + ("\nOptions and results:\n\n" + keys if keys else "")
     for function in functions:
         function.__doc__ = completed(inspect.cleandoc(function.__doc__ or ""), "", function.__name__, function.__code__, shown.get(function.__name__, ""))
+
+
+def explain(functions, said):
+    """To functions that explain their own arguments: those that mean the same in all of them, where the text does not speak of them."""
+    for function in functions:
+        text = inspect.cleandoc(function.__doc__)
+        lines = [f"{name}: {said[name]}" for name in inspect.signature(function).parameters
+                 if name in said and not re.search(rf"(?<![\w.]){name}(:|  )", text)]
+        if lines:
+            wrapped = (textwrap.fill(line, 100, initial_indent="    ", subsequent_indent="        ") for line in lines)
+            function.__doc__ = text + "\n\nArguments:\n\n" + "\n".join(wrapped) + "\n"

@@ -405,6 +405,8 @@ class Model(ModelMethods, Handle, noun="model", kind=_c.KIND_MODEL):
         if closed is not None:
             closed = numpy.ascontiguousarray(numpy.broadcast_to(closed, (self.n_pairs,)), dtype=numpy.int32)
             system = "given"
+        if isinstance(n, str):
+            raise TypeError(f"n is {n!r}; the number of modes comes first, then the system: modes(2, {n!r})")
         frequency = numpy.empty(max(n, 0))
         shape = numpy.empty((self.n_dof, max(n, 0)), order="F") if shapes else None
         self._work("get_modes", choice(system, SYSTEMS, "system"), address(closed), n, address(frequency), address(shape))

@@ -37,6 +37,10 @@ class Deck:
     interactions, materials: {name: record}; steps, procedures: names of the steps and what they are
     unread: list of (file, line, text), what is not understood; notes: list of texts, what was assumed
     matrices: plm.fe.matrices.Matrices, or None
+    path: of the file. read_deck and read_mesh make one; by hand it is empty, and these are its members to fill.
+
+        deck = plm.fe.Deck("own.inp")
+        deck.node_labels, deck.coordinates = numpy.array([1, 2]), numpy.array([[0, 0, 0], [1, 0, 0]])
     """
 
     def __init__(self, path):
@@ -54,7 +58,10 @@ class Deck:
                 f"{len(self.contact_pairs)} contact pairs, {len(self.unread)} places not understood>")
 
     def node_rows(self, labels):
-        """Rows of nodes in node_labels and coordinates."""
+        """Places of nodes in node_labels and coordinates, from 0; labels: an array of them.
+
+            xyz = deck.coordinates[deck.node_rows([1, 2])]
+        """
         labels = numpy.asarray(labels, dtype=numpy.int64)
         at = numpy.searchsorted(self.node_labels, labels)
         found = at < len(self.node_labels)
@@ -65,21 +72,30 @@ class Deck:
 
     def faces(self, surface):
         """Node rows (places in node_labels) of the faces of a surface, by its name or itself: n x k; a list of arrays where faces
-        have different numbers of nodes, an empty one for nodes alone. Corners first, normals out of the body."""
+        have different numbers of nodes, an empty one for nodes alone. Corners first, normals out of the body.
+
+            corners = deck.faces("TOP")
+        """
         if isinstance(surface, str):
             surface = self.surfaces[surface]
         rows = [self.node_rows(face) for face in surface.faces]
         return numpy.array(rows, dtype=numpy.int64) if len({len(row) for row in rows}) == 1 else rows
 
     def section_set(self, block):
-        """Name of the element set that a section, *SPRING or *MASS is for."""
+        """Name of the element set that a section, *SPRING or *MASS is for; block: the card, as one of `materials` and such keep it.
+
+            name = deck.section_set(section)
+        """
         for name in (block.scope.full(block.needed("ELSET")), block.get("ELSET").upper()):
             if name in self.element_sets:
                 return name
         block.fail(f"there is no element set {block.get('ELSET')}")
 
     def dof(self, node, direction):
-        """Row of a node's DOF (direction 1 to 6) in the model; None where it has none."""
+        """Row of a node's DOF (direction 1 to 6) in the model, from 0; None where it has none.
+
+            row = deck.dof(node=2, direction=1)
+        """
         return self._dofs().row(node, direction)
 
     @property
@@ -96,7 +112,10 @@ class Deck:
         return self._map
 
     def set_matrices(self, matrices):
-        """Matrices of plm.fe.matrices, or the path of files with them."""
+        """Matrices of plm.fe.matrices, or the path of files with them.
+
+            deck.set_matrices("two_K.mtx")
+        """
         if isinstance(matrices, (str, os.PathLike)):
             from .matrices import read_matrices
             matrices = read_matrices(matrices)
@@ -105,20 +124,31 @@ class Deck:
     def matrices_by_calculix(self, folder=None, program="ccx"):
         """Stiffness and mass by CalculiX from mesh, materials and sections; constraints, supports and contact stay the library's. A
         temporary folder unless one is given, in which the files then stay (without the point masses of *MASS, which are added to what
-        CalculiX writes). Returns the matrices, which are the deck's from now."""
+        CalculiX writes). Returns the matrices, which are the deck's from now. program: the command that runs CalculiX.
+
+            matrices = deck.matrices_by_calculix(folder="ccx")
+        """
         from .deck_calculix import matrices_of
         self.set_matrices(matrices_of(self, folder, program))
         return self.matrices
 
     def model(self, context=None, **options):
-        """A built plm.Model of the deck; see plm.fe.deck_model.build_model for the options."""
+        """A built plm.Model of the deck; see plm.fe.deck_model.build_model for the options. context: a plm.Context; None: the one of
+        this thread.
+
+            model = deck.model()
+        """
         from .deck_model import build_model
         return build_model(self, context, **options)
 
 
 def read_deck(path, matrices=None):
     """Reads a deck with what it includes. matrices: plm.fe.matrices.Matrices or a path of files for it; None: there are none yet,
-    and deck.model() has CalculiX make them. FileError where the deck is wrong; what is not understood is listed in `unread`."""
+    and deck.model() has CalculiX make them. FileError where the deck is wrong; what is not understood is listed in `unread`. path: of the deck.
+
+        deck = plm.fe.read_deck("two.inp", matrices="two_K.mtx")
+        print(deck.model().modes(2), deck.dof(node=2, direction=1))
+    """
     blocks, _, notes = flatten(read_blocks(path))
     deck = Deck(path)
     deck.notes += notes

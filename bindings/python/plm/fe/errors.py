@@ -7,6 +7,11 @@ class FileError(ValueError):
     file  its path
     line  the line at fault, from 1; 0: the file as a whole, or a binary one, where the text has the byte
     text  what was found and what to do
+
+        try:
+            deck = plm.fe.read_deck("absent.inp")
+        except plm.fe.FileError as error:
+            print(error.file, error.line, error.text)
     """
 
     def __init__(self, file, line, text):

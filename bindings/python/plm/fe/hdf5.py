@@ -20,7 +20,11 @@ def write_hdf5(path, branch, dofs=None, n_times=64, largest=LARGEST):
         contact/closed_share     n_points x n_pairs           share of the period
 
     MATLAB and Octave show arrays with their dimensions in the opposite order. dofs: None, all DOFs. A file beyond `largest` bytes
-    is refused: then name the DOFs, or give a larger number."""
+    is refused: then name the DOFs, or give a larger number.
+    path: of the file that is written. branch: a plm.Branch. n_times: instants of the period.
+
+        plm.fe.write_hdf5("curve.h5", response.curve, dofs=[0, 1])
+    """
     h5py = h5py_for("write_hdf5")
     dofs = range(branch.n_dof) if dofs is None else numpy.atleast_1d(dofs).tolist()
     n_points, rows, n_pairs = len(branch), 2 * branch.n_harmonics + 1, branch.n_pairs

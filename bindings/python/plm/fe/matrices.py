@@ -36,6 +36,8 @@ class Matrices:
     dofs                 (n, 2) int64: node label and direction 1 .. 6. Direction 0 is a scalar point or a modal coordinate, a label
                          below one an internal node; without a list of DOFs row i has the label -(i + 1)
     name, source, notes  of the model; the files that were read; what was assumed or not understood, with file and line
+
+        own = plm.fe.Matrices(scipy.sparse.csr_matrix([[2e4, -1e4], [-1e4, 1e4]]), scipy.sparse.identity(2), dofs=[(1, 1), (2, 1)])
     """
 
     def __init__(self, stiffness, mass, damping=None, dofs=None, name="", source=(), notes=(), structural_damping=None, loads=None):
@@ -96,6 +98,8 @@ def read_matrices(path, mass=None, damping=None, structural_damping=None, dofs=N
     names    {"stiffness": "KAAX", ...} where a file has several matrices (DMIG, OUTPUT4) that could be meant
     format   one of "market", "calculix", "abaqus", "abaqus-substructure", "harwell-boeing", "dmig", "output4"; by default the
              contents tell
+
+        matrices = plm.fe.read_matrices("two_K.mtx")
     """
     path = located(os.fspath(path))
     given = {"mass": mass, "damping": damping, "structural_damping": structural_damping}
@@ -152,6 +156,9 @@ def write_matrices(path, matrices, format, **options):
              "output4", "output4-binary"
     options  of "dmig": free=True; of the two OUTPUT4 forms: layout="dense", "sparse" or "bigmat", precision="double" or "single",
              byteorder="<" or ">" (binary)
+    matrices plm.fe.Matrices
+
+        paths = plm.fe.write_matrices("again", matrices, "market")
     """
     if format not in WRITERS:
         raise ValueError(f"format is {format!r}; it must be one of {', '.join(WRITERS)}")

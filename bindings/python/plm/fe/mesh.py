@@ -22,7 +22,13 @@ def read_mesh(path, matrices=None):
     """A Deck of a mesh file: nodes, elements, sets of physical groups; no loads, materials or constraints.
 
     Nodes have the labels 1, 2, ... in the order of the file (meshio does not keep others). Where there are solids, groups of
-    triangles and quadrilaterals become surfaces whose normals point out of the solids, and no elements of their own."""
+    triangles and quadrilaterals become surfaces whose normals point out of the solids, and no elements of their own.
+
+    path: of a file that meshio reads. matrices: plm.fe.Matrices, or the path of files with them; None: none yet.
+
+        deck = plm.fe.read_mesh("two.vtu")
+        deck.set_matrices("two_K.mtx")
+    """
     deck = Deck(path)
     mesh, warnings = _read(path)
     deck.unread += [(deck.path, 0, f"meshio: {warning}") for warning in warnings]

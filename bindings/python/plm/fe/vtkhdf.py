@@ -9,7 +9,11 @@ from .with_h5py import h5py_for
 
 def write_vtkhdf(path, branch, point, mesh, n_times=24, recover=None):
     """A point of a branch over its period in one file (.vtkhdf): the mesh once, and for each of n_times what NodeMotion.frame
-    gives. Version 2.0 of the format; ParaView 5.12 and VTK 9.3 read the steps, older ones the first."""
+    gives. Version 2.0 of the format; ParaView 5.12 and VTK 9.3 read the steps, older ones the first.
+    path: of the file. recover: Model.recover of a superelement; None: the rows of the model are those of the mesh.
+
+        plm.fe.write_vtkhdf("motion.vtkhdf", response.curve, -1, deck, n_times=8)
+    """
     h5py = h5py_for("write_vtkhdf")
     motion, cells = NodeMotion(branch, point, mesh, n_times, recover), Cells(mesh)
     with replacing(path) as beside, h5py.File(beside, "w") as file:

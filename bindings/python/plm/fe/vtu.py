@@ -16,7 +16,12 @@ _TYPES = {"f8": "Float64", "i4": "Int32", "i8": "Int64", "u1": "UInt8"}
 
 def write_vtu_series(folder, branch, point, mesh, n_times=24, name="cycle", recover=None):
     """A point of a branch over its period: NAME_000.vtu, ... and NAME.pvd with their times (s), into a folder that is there.
-    Returns the path of the .pvd. What is in the files, and what a mesh is: NodeMotion."""
+    Returns the path of the .pvd. What is in the files, and what a mesh is: NodeMotion.
+    n_times: instants of the period. name: of the files. recover: Model.recover of a superelement; None: the rows of the model are
+    those of the mesh.
+
+        plm.fe.write_vtu_series(".", response.curve, -1, deck, n_times=8, name="motion")
+    """
     motion, cells = NodeMotion(branch, point, mesh, n_times, recover), Cells(mesh)
     folder, digits = pathlib.Path(folder), max(3, len(str(n_times - 1)))
     names = [f"{name}_{k:0{digits}d}.vtu" for k in range(n_times)]
@@ -29,7 +34,12 @@ def write_vtu_series(folder, branch, point, mesh, n_times=24, name="cycle", reco
 
 
 def write_vtu(path, mesh, point_data, field_data=None, cells=None):
-    """One mesh with arrays at its nodes (n or n x k) and others of any length; the labels of nodes and elements are added."""
+    """One mesh with arrays at its nodes (n or n x k) and others of any length; the labels of nodes and elements are added.
+    path: of the file. point_data: {name: array at the nodes}. field_data: {name: array}. cells: of the mesh, where they are known
+    from another file of the series; None: made.
+
+        plm.fe.write_vtu("mesh.vtu", deck, {"displacement": 0 * deck.coordinates})
+    """
     cells = cells or Cells(mesh)
     n_points, n_cells = len(mesh.node_labels), len(cells.types)
     points = numpy.asarray(mesh.coordinates, dtype=float).reshape((-1, 3))

@@ -50,7 +50,7 @@ def contact_area_over_cycle(branch, point, n_times=256, area=None, units="m", ax
     """Contact area during the period at a point of the branch; area: that of each pair, in the square of the model's unit of
     length (None: the pairs are counted).
 
-        plm.plot.contact_area_over_cycle(peak.branch, 0, area=deck_areas, units="mm")
+        plm.plot.contact_area_over_cycle(peak.branch, 0, area=areas, units="mm")
     """
     contact = branch.contact(point, n_times)
     counted = area is None
@@ -72,7 +72,7 @@ def contact_map(branch, point, xyz, units="m", time_fraction=None, ax=None):
     closed, or, at an instant (time_fraction of the period), filled where it is closed. xyz: n_pairs x 3 (or x 2), where the
     pairs are; they are drawn in the plane that fits them best.
 
-        plm.plot.contact_map(peak.branch, 0, xyz_of_pairs, units="mm")
+        plm.plot.contact_map(peak.branch, 0, xyz, units="mm")
     """
     xyz = numpy.asarray(xyz, dtype=float)
     if xyz.ndim != 2 or len(xyz) != branch.n_pairs or xyz.shape[1] not in (2, 3):

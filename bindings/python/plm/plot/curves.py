@@ -92,6 +92,8 @@ def backbone(branches, dof, measure="half_peak_to_peak", harmonic=0, over="force
     if over not in ("force", "frequency"):
         raise ValueError(f"over must be 'force' or 'frequency', not {over!r}")
     branches = branches if isinstance(branches, (list, tuple)) else [branches]
+    if not branches:
+        raise ValueError("there is no branch to draw: find_backbones returned none, as where no pair opens or closes at resonance")
     amplitudes = [branch.amplitude(dof, measure, harmonic) for branch in branches]
     unit = length_unit(units, numpy.concatenate(amplitudes))
     xlabel = "frequency (Hz)" if over == "frequency" else "force scale" if force is None else "force (N)"

@@ -109,7 +109,10 @@ def axes(ax, xlabel, ylabel):
 
 @styled
 def legend_above(ax, columns=None):
-    """The legend above the axes, where it covers nothing, in as many columns as fit it (None: by the length of its texts)."""
+    """The legend above the axes, where it covers nothing, in as many columns as fit it (None: by the length of its texts).
+
+        plm.plot.legend_above(ax, columns=2)
+    """
     handles, labels = ax.get_legend_handles_labels()
     if not handles:
         return None
