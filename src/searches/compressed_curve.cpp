@@ -1,5 +1,4 @@
 #include "searches/compressed_curve.hpp"
-#include "motions/branch_path.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"

@@ -1,5 +1,6 @@
 // A curve on a compressed model held against the whole basis, or a better model: its highest motion, and its
 // stability.
+#include "motions/branch_path.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_point.hpp"
