@@ -723,8 +723,8 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
 /* The whole way in one call, for a built model with an excitation: the response curve around the resonance that the
  * excitation drives most, and its peak at DOF `dof`. measure: PLM_PEAK, PLM_HALF_PEAK_TO_PEAK or PLM_RMS. accuracy: the
  * relative error that the peak may have, 1e-8 to 0.5 (1e-3 is usual); sampler, window, basis, motion and harmonics follow
- * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error; where that does not
- * converge, by what a clearly larger basis changes) to be within. Outputs: frequency (Hz) and amplitude of the peak;
+ * from it: the curve is followed on the unreduced structure, as far as its motions need that, or on a basis that is refined,
+ * until what either leaves out is estimated to be within. Outputs: frequency (Hz) and amplitude of the peak;
  * error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm: the solver that computed it, to go on with
  * (other points, isolated branches, stability), with its basis behind it, or NULL. With pre-load or gaps motions beside
  * the curve are looked for at the same force, for no more work than the curve took: PLM_WARNING with

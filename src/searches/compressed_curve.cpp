@@ -45,9 +45,10 @@ bool is_dear_step(const ReducedModel &model, const HbmOptions &options) {
 } // namespace
 
 bool compresses(const ReducedModel &whole, const HbmOptions &options) {
-    return options.motion == MotionKind::automatic && permits_exact(whole, options) && whole.same_static &&
-           !whole.all_pairs && !whole.from && whole.model && options.period_multiple == 1 &&
-           whole.size() >= many_coordinates && exact_step_flops(whole, options) > dear_step;
+    return options.motion == MotionKind::automatic && prefers_exact_compressed(whole, options) &&
+           whole.same_static && !whole.all_pairs && !whole.from && whole.model &&
+           options.period_multiple == 1 && whole.size() >= many_coordinates &&
+           exact_step_flops(whole, options) > dear_step;
 }
 
 HbmOptions options_on(const ReducedModel &model, HbmOptions options) {
@@ -172,8 +173,9 @@ std::vector<CurveCompression::Point> CurveCompression::points_of(const Branch &l
 bool CurveCompression::saves(const ReducedModel &smaller, const std::vector<Point> &points) const {
     const auto is_unstable = [](const Point &p) { return p.unstable; };
     const bool bounces = std::count_if(points.begin(), points.end(), is_unstable) > 1;
-    return static_cast<double>(smaller.size()) <=
-           (bounces ? much_smaller_where_unstable : much_smaller) * static_cast<double>(whole_->size());
+    return has_flow(smaller) &&
+           static_cast<double>(smaller.size()) <=
+               (bounces ? much_smaller_where_unstable : much_smaller) * static_cast<double>(whole_->size());
 }
 
 // Whatever its motions are, no better model would be followed than this one.
@@ -318,39 +320,6 @@ void CurveCompression::grow_beside(std::vector<Point> &highest) {
 
 bool CurveCompression::is_spent() const {
     return better_ && is_dear(*better_) && std::isfinite(change_);
-}
-
-void CurveCompression::warn(Branch &curve) const {
-    const Watch keeping = watch_.keeping(curve.warnings);
-    const std::string dear =
-        "so many pairs open and close that a nearer curve takes many minutes. Set motion to "
-        "exact for a curve on the whole basis, or n_harmonics for one by harmonic balance";
-    const double hz = curve.points()[static_cast<std::size_t>(largest_response(curve))].omega / (2 * M_PI);
-    if (!std::isfinite(change_))
-        keeping.warn(
-            reason::unverified,
-            format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, and "
-                   "what more "
-                   "of them would change at its highest point, %.6g Hz, was not found with the effort "
-                   "allowed. Raise "
-                   "the effort of the context, or set motion to exact for a curve on the whole basis",
-                   static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()),
-                   hz));
-    else if (change_ > options_.accuracy)
-        keeping.warn(
-            reason::basis_too_small,
-            format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, "
-                   "and at its highest point, %.6g Hz, %lld of them change the amplitude by %.2g of "
-                   "itself (accuracy %.2g): %s",
-                   static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()), hz,
-                   static_cast<long long>(better_->size()), change_, options_.accuracy, dear.c_str()));
-    if (!doubtful_.empty())
-        keeping.warn(
-            reason::unverified,
-            format("%s (%lld of the basis' %lld coordinates), or no motion was found there on a larger "
-                   "one: stability flags near there are not certain, and %s",
-                   doubtful_.c_str(), static_cast<long long>(curve.reduced().size()),
-                   static_cast<long long>(whole_->size()), dear.c_str()));
 }
 
 } // namespace plm

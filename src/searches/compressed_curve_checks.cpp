@@ -1,5 +1,5 @@
-// A curve on a compressed model held against the whole basis, or a better model: its highest motion, and its
-// stability.
+// A curve on a compressed model held against the whole basis, or a better model: its highest motion, its
+// stability, and what is said of both.
 #include "motions/branch_path.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/motion_measures.hpp"
@@ -117,6 +117,39 @@ bool CurveCompression::confirms_stability(const Branch &curve) {
         return is_dear(*whole_); // nothing else is at hand: warn()
     }
     return true;
+}
+
+void CurveCompression::warn(Branch &curve) const {
+    const Watch keeping = watch_.keeping(curve.warnings);
+    const std::string dear =
+        "so many pairs open and close that a nearer curve takes many minutes. Set motion to "
+        "exact for a curve on the whole basis, or n_harmonics for one by harmonic balance";
+    const double hz = curve.points()[static_cast<std::size_t>(largest_response(curve))].omega / (2 * M_PI);
+    if (!std::isfinite(change_))
+        keeping.warn(
+            reason::unverified,
+            format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, and "
+                   "what more "
+                   "of them would change at its highest point, %.6g Hz, was not found with the effort "
+                   "allowed. Raise "
+                   "the effort of the context, or set motion to exact for a curve on the whole basis",
+                   static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()),
+                   hz));
+    else if (change_ > options_.accuracy)
+        keeping.warn(
+            reason::basis_too_small,
+            format("this curve of exact motions was followed on %lld of the basis' %lld coordinates, "
+                   "and at its highest point, %.6g Hz, %lld of them change the amplitude by %.2g of "
+                   "itself (accuracy %.2g): %s",
+                   static_cast<long long>(curve.reduced().size()), static_cast<long long>(whole_->size()), hz,
+                   static_cast<long long>(better_->size()), change_, options_.accuracy, dear.c_str()));
+    if (!doubtful_.empty())
+        keeping.warn(
+            reason::unverified,
+            format("%s (%lld of the basis' %lld coordinates), or no motion was found there on a larger "
+                   "one: stability flags near there are not certain, and %s",
+                   doubtful_.c_str(), static_cast<long long>(curve.reduced().size()),
+                   static_cast<long long>(whole_->size()), dear.c_str()));
 }
 
 } // namespace plm

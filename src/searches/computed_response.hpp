@@ -1,5 +1,5 @@
-// The whole way from a model to its peak for one number, the accuracy: sampler, basis, curve, peak, and again
-// with a larger basis until the error that the basis makes is estimated to be small enough.
+// The whole way from a model to its peak for one number, the accuracy: sampler, a curve on the unreduced structure
+// (or, where that is large, on a basis and again on a refined one), peak, and the error of all that.
 #pragma once
 #include "reduction/basis.hpp"
 #include "searches/larger_motion.hpp"

@@ -29,7 +29,7 @@ Hbm::Hbm(std::shared_ptr<const ReducedModel> reduced, const SweepRange &window, 
               fixed_max ? options_.frequency_max_hz : window.most_hz};
     require_consistent(options_);
     exact_ = prefers_exact(*reduced_, options_);
-    if (exact_ || permits_exact(*reduced_, options_)) {
+    if (exact_ || prefers_exact_compressed(*reduced_, options_)) {
         const auto wide = widened(reduced_);
         if (exact_ || compresses(*wide, options_)) reduced_ = wide;
     }

@@ -73,7 +73,8 @@ def check_short(program, plot, scene, options, folder):
     check_contact(folder, name)
     report = (folder / "report.md").read_text(encoding="utf-8")
     require("| 4 samples |" in report, f"{name}: the report has the table")
-    check_pictures(plot, folder, report, 3)
+    if plot:
+        check_pictures(plot, folder, report, 3)
 
 
 def check_levels(folder):
@@ -172,7 +173,8 @@ def main():
     refuses_nonsense(program)
     with tempfile.TemporaryDirectory() as root:
         for number, (scene, options) in enumerate(SHORT_CASES):
-            check_short(program, plot, scene, options, pathlib.Path(root) / str(number))
+            # drawing is the same code for every case
+            check_short(program, plot if number == 0 else None, scene, options, pathlib.Path(root) / str(number))
         folder = pathlib.Path(root) / "stiffness"
         folder.mkdir()
         check_stiffness(program, folder)
