@@ -48,7 +48,7 @@ HostSolver SolverBinding::for_core() {
 }
 
 double Context::effort_beside(double setup) const {
-    constexpr double of_a_second = 7e9; // flops as worked() is told of them
+    constexpr double of_a_second = 6e9; // flops as worked() is told of them
     return effort > 0 ? std::max(effort * of_a_second, setup) : std::numeric_limits<double>::infinity();
 }
 

@@ -18,7 +18,7 @@ namespace {
 // an error of its own.
 constexpr std::int64_t few_coordinates = 600;
 // Of the effort: what curves may have, and what their peak and its error have at least.
-constexpr double share_of_curves = 0.75;
+constexpr double share_of_curves = 0.85;
 // Some seconds.
 constexpr double flops_of_first_curve = 1e10;
 // For the estimate of an error: some seconds.
