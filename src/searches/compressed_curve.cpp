@@ -268,6 +268,18 @@ bool CurveCompression::grow_to(double enough) {
     return false;
 }
 
+// By what the whole basis answers at one point of a curve. False: such a model saves nothing.
+bool CurveCompression::grow_at(const ReducedModel &model, const BranchPoint &point) {
+    needs_.springs.push_back(mean_springs(model, point));
+    take(uncompressed(model, point), needs_.motions);
+    take(corrected_on_whole(model, point), needs_.motions);
+    left_out_ *= less;
+    const auto larger = compressed_after(&model);
+    if (larger->size() <= model.size() || is_dear(*larger) || !saves(*larger, {})) return false;
+    model_ = larger;
+    return true;
+}
+
 bool CurveCompression::confirms(const Branch &curve) {
     better_ = nullptr, change_ = INFINITY;
     top_ = largest_response(curve);

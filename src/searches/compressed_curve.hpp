@@ -46,7 +46,8 @@ class CurveCompression {
     void warn(Branch &curve) const;
     /// Whether the curve is stable on the whole basis (where a step on that takes too long: on the better
     /// model of the last confirms(), and if not, that is left to warn()) where it is on that model: at its
-    /// highest motion, and between the points where it becomes stable or unstable.
+    /// highest motion, and between the points where it becomes stable or unstable. If not, model() is a
+    /// better one.
     bool confirms_stability(const Branch &curve);
 
   private:
@@ -93,6 +94,7 @@ class CurveCompression {
                 const BranchPoint &there, double amplitude_on_curve, double error) const;
     void compare_with_whole(const Branch &curve);
     bool grow_to(double enough);
+    bool grow_at(const ReducedModel &model, const BranchPoint &point);
     bool find_on_whole(const Branch &curve, std::int64_t point, BranchPoint &found);
     bool agrees_on_whole(const Branch &curve, std::int64_t point);
     bool agrees_on_better(const Branch &curve, std::int64_t point);

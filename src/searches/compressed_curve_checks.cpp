@@ -114,7 +114,7 @@ bool CurveCompression::confirms_stability(const Branch &curve) {
         doubtful_ =
             format("stability at %.6g Hz is not as on the compressed model", points[i].omega / (2 * M_PI));
         watch_.log(1, doubtful_);
-        return is_dear(*whole_); // nothing else is at hand: warn()
+        return is_dear(*whole_) || !grow_at(curve.reduced(), points[i]); // nothing else is at hand: warn()
     }
     return true;
 }
@@ -147,9 +147,10 @@ void CurveCompression::warn(Branch &curve) const {
         keeping.warn(
             reason::unverified,
             format("%s (%lld of the basis' %lld coordinates), or no motion was found there on a larger "
-                   "one: stability flags near there are not certain, and %s",
+                   "one: stability flags near there are not certain. Set motion to exact for a curve on "
+                   "the whole basis",
                    doubtful_.c_str(), static_cast<long long>(curve.reduced().size()),
-                   static_cast<long long>(whole_->size()), dear.c_str()));
+                   static_cast<long long>(whole_->size())));
 }
 
 } // namespace plm

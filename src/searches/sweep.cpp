@@ -133,7 +133,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
                 if (compression.model() == curve.reduced) return nullptr; // its highest motion is not exact
                 continue;
             }
-            if (!compression.confirms_stability(*branch)) return nullptr;
+            if (!compression.confirms_stability(*branch) && k + 1 < most_curves) continue;
             compression.warn(*branch);
             if (task.level_before) *task.level_before = kept;
             return branch;
