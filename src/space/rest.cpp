@@ -196,18 +196,19 @@ void follow_forces(const Model &model, const vector<double> &forces, Field &q) {
     constexpr int most_corrections = 6;
     constexpr double falls = 0.1, rounding = 1e-14; // of the displacement
     if (model.shift() == 0 || !model.is_whole()) return;
+    const bool has_rigid_modes = model.n_rigid() > 0; // none where it is only nearly unheld
     Matrix n(model.n_pairs(), 1);
     for (std::int64_t i = 0; i < model.n_pairs(); ++i) n(i, 0) = -forces[static_cast<std::size_t>(i)];
     Field load = model.gap_rows().forces(n);
     if (model.has_preload()) add(1, model.preload(), load);
-    const Field momenta = model.mass_times(model.rigid_modes());
+    const Field momenta = has_rigid_modes ? model.mass_times(model.rigid_modes()) : Field();
     double part = 1;
     for (int k = 0; k < most_corrections && part > rounding; ++k) {
         Field left = model.stiffness_times(q);
         left.scale({-1.0});
         add(1, load, left);
         model.solve(left);
-        add_combination(-1.0, model.rigid_modes(), projected(momenta, left), left);
+        if (has_rigid_modes) add_combination(-1.0, model.rigid_modes(), projected(momenta, left), left);
         const double size = column_norms(q)[0], now = size > 0 ? column_norms(left)[0] / size : 0;
         if (!(now > model.uncertainty() && now < falls * part)) return; // rounding of the matrices
         add(1, left, q);
