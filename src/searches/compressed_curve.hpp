@@ -37,8 +37,8 @@ class CurveCompression {
     /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is
     /// a better one.
     bool confirms(const Branch &curve);
-    /// What that changed of the highest motion, relative; infinite: it was not found.
-    double change() const { return change_; }
+    /// Of the highest motion, relative, after that: infinite where it was not found on a better model.
+    double error() const;
     /// After that: to follow a curve on a better model would take minutes.
     bool is_spent() const;
     /// Says what the last confirms() found, where that is more than the accuracy, and what the last

@@ -128,7 +128,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
             if (is_stuck(*branch)) return nullptr;
             whole = branch;
             const bool confirmed = compression.confirms(*branch);
-            if (std::isfinite(compression.change())) branch->model_error = compression.change();
+            if (std::isfinite(compression.error())) branch->model_error = compression.error();
             if (!confirmed && !compression.is_spent()) {
                 if (compression.model() == curve.reduced) return nullptr; // its highest motion is not exact
                 continue;
