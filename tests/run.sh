@@ -60,8 +60,8 @@ choose() {
         programs='plm plm_static tests/capi/all tests/host/all'
         tests='^(host[.]|capi[.])' ;;
     permissive) # its own factorization and transforms
-        programs='plm plm_static test_structure_factor test_linalg_dft test_capi_run test_capi_transient accuracy'
-        tests='^(structure[.]factor|linalg[.]dft|capi[.](run|transient)|accuracy[.]quick|abi[.](object|ledger))$' ;;
+        programs='plm plm_static test_structure_factor test_linalg_dft test_capi_run test_capi_transient'
+        tests='^(structure[.]factor|linalg[.]dft|capi[.](run|transient)|abi[.](object|ledger))$' ;;
     asserting | libcxx) # another C++ library under the rooms that ask it for most
         programs='plm plm_static test_orbits_flow test_orbits_orbit_equations test_contact_contact_force test_capi_run
                   test_capi_search_calls test_capi_transient_runs test_host_cancelled_thread test_host_scenarios'
