@@ -3,8 +3,8 @@
 
 namespace plm {
 
-/// Of one harmonic, growing with a power of the excitation's frequency omega (rad/s). An unbalance m e omega^2
-/// has the power 2 and the load m e; a displacement of which the velocity is given, the power -1.
+/// Of one harmonic, growing with a power of the excitation's frequency omega (rad/s). An unbalance m e
+/// omega^2 has the power 2 and the load m e; a displacement of which the velocity is given, the power -1.
 struct LoadPart {
     int harmonic = 0, power = 0;
     LoadPart(int h, int p = 0) : harmonic(h), power(p) {}

@@ -1,5 +1,6 @@
-// The whole way from a model to its peak for one number, the accuracy: sampler, a curve on the unreduced structure
-// (or, where that is large, on a basis and again on a refined one), peak, and the error of all that.
+// The whole way from a model to its peak for one number, the accuracy: sampler, a curve on the unreduced
+// structure (or, where that is large, on a basis and again on a refined one), peak, and the error of all
+// that.
 #pragma once
 #include "reduction/basis.hpp"
 #include "searches/larger_motion.hpp"

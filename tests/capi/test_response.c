@@ -70,7 +70,8 @@ static double peak_of(plm_hbm *hbm, int64_t dof, plm_status *status) {
     return amplitude;
 }
 
-/* Where a basis is too small the steps say so, with the error that it has, and the one call takes a larger one. Truth: the exact motion of the unreduced row, in a space for 60 harmonics. */
+/* Where a basis is too small the steps say so, with the error that it has, and the one call takes a larger
+ * one. Truth: the exact motion of the unreduced row, in a space for 60 harmonics. */
 static void the_basis_grows_to_the_accuracy(void **state) {
     enum { n = 80, dof = n - 1 };
     const double accuracy = 1e-2;
