@@ -24,6 +24,8 @@ constexpr double work_anyhow = 1e9;
 // are differences, and it turns more often.
 constexpr double steps_of_exact = 12, steps_of_harmonics = 5;
 constexpr std::int64_t least_points = 20; // fewer lead nowhere
+// Of a backbone, which only shows where the force of the curve is met again: what is met is made exact.
+constexpr double tolerance_on_the_way = 1e-6;
 constexpr std::size_t most_resonances = 2, most_curves = 2;
 constexpr double same = 1e-4;       // relative distance of two phase-resonant motions
 constexpr double same_height = 0.1; // of the amplitude, on a compressed model and on its basis
@@ -91,6 +93,7 @@ class SearchBeside {
         BackboneOptions o;
         o.hbm = exact_ ? options_ : with_first_harmonics(*reduced_, options_);
         o.hbm.max_points = points;
+        o.hbm.tolerance = std::max(o.hbm.tolerance, tolerance_on_the_way);
         o.exact = exact_;
         return o;
     }
