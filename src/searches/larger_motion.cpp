@@ -25,8 +25,7 @@ constexpr double work_anyhow = 1e9;
 constexpr double steps_of_exact = 12, steps_of_harmonics = 5;
 constexpr std::int64_t least_points = 20; // fewer lead nowhere
 constexpr std::size_t most_resonances = 2, most_curves = 2;
-constexpr double same = 1e-4;       // relative distance of two phase-resonant motions
-constexpr double same_height = 0.1; // of the amplitude, on a compressed model and on its basis
+constexpr double same = 1e-4; // relative distance of two phase-resonant motions
 
 // A crossing of a backbone with the force of the curve.
 struct Crossing {
@@ -208,7 +207,7 @@ class SearchBeside {
         if (!make_exact_nearest(whole, options_, there, work) || stability_of(there) != 1) return false;
         Branch one(whole, curve_.force_scale(), curve_.period_multiple());
         one.append(std::move(there));
-        return std::abs(amplitude(one, 0) / height - 1) < same_height;
+        return std::abs(amplitude(one, 0) / height - 1) <= same_motion;
     }
 
     double force_at(const BranchPoint *extremum, ForceExtremum kind) const {
