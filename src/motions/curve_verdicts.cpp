@@ -1,5 +1,6 @@
 #include "motions/curve_verdicts.hpp"
 #include "contact/contact_measures.hpp"
+#include "motions/error_budget.hpp"
 #include "motions/motion_measures.hpp"
 #include "reduction/compression.hpp"
 #include "space/audit.hpp"
@@ -219,7 +220,7 @@ void check_stability(const Branch &curve, const Output &of, double accuracy, Wat
 
 void check_host_reduction(const Model &model, double accuracy, double error, Watch watch) {
     const double of_host = model.space_options().reduction_error;
-    if (of_host <= allowed_of_host * accuracy || error + of_host <= accuracy) return;
+    if (of_host <= ErrorBudget(accuracy).host() || error + of_host <= accuracy) return;
     watch.warn(
         reason::host_reduction,
         format("the model is a superelement whose own error is stated to be %.2g (\"reduction_error\"): "

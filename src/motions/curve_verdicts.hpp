@@ -31,9 +31,8 @@ std::int64_t highest_stable(const Branch &curve, const Output &of);
 /// and as high within the accuracy (that beside a fold, for one).
 void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak);
 
-/// What a host's own reduction (a superelement) may take of the accuracy; the rest is the basis'.
-constexpr double allowed_of_host = 0.5;
-/// Where it takes more, no basis can mend it. error: of the basis, as estimated.
+/// Where a host's own reduction (a superelement) takes more than its share (error_budget.hpp), no basis can
+/// mend it. error: of the basis, as estimated.
 void check_host_reduction(const Model &model, double accuracy, double error, Watch watch);
 
 /// A curve that folds and comes back to the end of the range where it began, or to its first point, says

@@ -45,10 +45,6 @@ bool can_be_judged(const Basis &basis, const Branch &branch, double flops) {
                numbers_for_a_flop * flops;
 }
 
-bool is_complete(const Basis &basis, const Branch &branch) {
-    return branch.reduced().size() >= basis.space()->size() && !basis.reduced()->all_pairs;
-}
-
 } // namespace
 
 Output most_moving(const Branch &branch, std::int64_t point) {
@@ -65,8 +61,8 @@ Output most_moving(const Branch &branch, std::int64_t point) {
     return most;
 }
 
-bool is_unreduced(const Basis &basis) {
-    return basis.reduced()->size() >= basis.space()->size() && !basis.reduced()->all_pairs;
+bool is_unreduced(const ReducedModel &reduced, const Basis &basis) {
+    return reduced.size() >= basis.space()->size() && !reduced.all_pairs;
 }
 
 vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted) {
@@ -93,7 +89,7 @@ double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOption
     if (!basis || !can_be_judged(*basis, branch, flops)) return not_judged;
     const double amplitude = branch.amplitude(point, output.dof, output.measure, output.harmonic);
     if (amplitude == 0) return not_judged;
-    if (is_complete(*basis, branch)) return 0;
+    if (is_unreduced(branch.reduced(), *basis)) return 0;
     double error = not_judged;
     try {
         HbmOptions o = options;
@@ -120,7 +116,7 @@ double flops_of(const Branch &curve, const HbmOptions &options) {
 
 double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmOptions &options,
                            const Branch &curve, double flops, Watch watch) {
-    if (!basis || !basis->space()->is_contact_space || is_complete(*basis, curve)) return 0;
+    if (!basis || !basis->space()->is_contact_space || is_unreduced(curve.reduced(), *basis)) return 0;
     const auto &points = curve.points();
     const auto from_circle = [&](std::int64_t i) {
         const auto &m = points[static_cast<std::size_t>(i)].multipliers;

@@ -17,9 +17,9 @@ vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted);
 double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::int64_t point,
                    const Output &output, double peak, vector<std::complex<double>> *multipliers = nullptr);
 
-/// Whether it spans all of its space: what is missed then is missed by the model that a curve was followed
-/// on.
-bool is_unreduced(const Basis &basis);
+/// Whether a model made of a basis, itself or widened, spans all of the basis' space: a curve on it lacks
+/// nothing by the basis.
+bool is_unreduced(const ReducedModel &reduced, const Basis &basis);
 
 /// What an estimate may cost by itself, flops: some tenths of a second.
 constexpr double few_flops = 2e9;

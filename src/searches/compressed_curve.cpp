@@ -1,5 +1,6 @@
 #include "searches/compressed_curve.hpp"
 #include "motions/compressed_motion.hpp"
+#include "motions/error_budget.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
@@ -14,29 +15,22 @@ namespace {
 // Below, a step on the basis itself takes some hundredths of a second, and a curve few seconds.
 constexpr double dear_step = 2e7; // flops
 constexpr std::int64_t many_coordinates = 30;
-// What is left out of the motions, in the energy norm: at first, and how much less each time that was too
-// much. The amplitudes that follow are nearer.
-constexpr double left_out_at_first = 1e-3, less = 0.3;
-// The same where the whole basis is at hand to compare with, and the share of the tolerance to be met there:
-// the motion at the highest point of the next curve is another one.
-constexpr double a_little_less = 0.6, spare = 0.5;
+// What is left out of the motions, in the energy norm: at first. The amplitudes that follow are nearer.
+constexpr double left_out_at_first = 1e-3;
+// How much less each time that was too much where the whole basis is at hand to compare with.
+constexpr double a_little_less = 0.6;
 // Where all pairs bounce, their motions have something of every direction, most of it too little to move an
 // amplitude: a model grows by no more than this from one to the next.
 constexpr double grows = 1.5;
-// Of the accuracy: the basis takes its share, too; and where a curve takes minutes, not another one for less.
-constexpr double share_of_accuracy = 0.3, share_where_dear = 0.5;
-// Above, the same holds of the motions: a step takes a tenth of a second. Below, they are as exact as others:
-// near grazing, multipliers answer to the root of an error.
-constexpr double long_step = 5e8, share_of_motions = 3e-2;
+// Above, a step takes a tenth of a second, and motions take a share of the accuracy, too. Below, they are as
+// exact as others: near grazing, multipliers answer to the root of an error.
+constexpr double long_step = 5e8; // flops
 // A model that is not smaller than this share of the whole saves nothing.
 constexpr double much_smaller = 0.7;
 // Nor one of this share where contact bounces: its motions need more of the basis as they are followed.
 constexpr double much_smaller_where_unstable = 0.6;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
-// Of the accuracy: what the step to a model may have changed that is followed because the next one would save
-// nothing. Its own error is a part of that, and is measured where its curve is highest.
-constexpr double likely_settled = 30;
 
 bool is_dear_step(const ReducedModel &model, const HbmOptions &options) {
     return exact_step_flops(model, options) > options.dearest_step;
@@ -53,7 +47,7 @@ bool compresses(const ReducedModel &whole, const HbmOptions &options) {
 
 HbmOptions options_on(const ReducedModel &model, HbmOptions options) {
     if (model.from && exact_step_flops(model, options) > long_step)
-        options.tolerance = std::max(options.tolerance, share_of_motions * options.accuracy);
+        options.tolerance = std::max(options.tolerance, ErrorBudget(options.accuracy).dear_motions());
     return options;
 }
 
@@ -63,7 +57,11 @@ CurveCompression::CurveCompression(std::shared_ptr<const ReducedModel> whole, co
       watch_(watch) {}
 
 double compression_tolerance(const ReducedModel &whole, const HbmOptions &options) {
-    return (is_dear_step(whole, options) ? share_where_dear : share_of_accuracy) * options.accuracy;
+    return ErrorBudget(options.accuracy).compressed(is_dear_step(whole, options));
+}
+
+double CurveCompression::tolerance_predicted() const {
+    return ErrorBudget(options_.accuracy).compressed_as_predicted(is_dear(*whole_));
 }
 
 double CurveCompression::tolerance() const {
@@ -181,7 +179,7 @@ bool CurveCompression::saves(const ReducedModel &smaller, const std::vector<Poin
 // Whatever its motions are, no better model would be followed than this one.
 bool CurveCompression::is_last_not_dear(const ReducedModel &model) const {
     CurveCompression next(*this);
-    next.left_out_ *= less;
+    next.left_out_ *= ErrorBudget::next_try;
     return is_dear(*next.compressed_after(&model));
 }
 
@@ -199,7 +197,8 @@ bool CurveCompression::begin_with(const Branch &look) {
         }
         if (!saves(*smaller, points)) {
             model_ = before; // or a curve on the whole one does not end in minutes
-            return before && (change <= likely_settled * options_.accuracy || is_dear(*whole_));
+            return before &&
+                   (change <= ErrorBudget(options_.accuracy).step_to_last_model() || is_dear(*whole_));
         }
         if (before && is_last_not_dear(*smaller)) {
             model_ = smaller;
@@ -222,7 +221,7 @@ bool CurveCompression::begin_with(const Branch &look) {
         }
         before = smaller;
         if (round > 0 && !std::isfinite(change)) return false;
-        left_out_ *= less;
+        left_out_ *= ErrorBudget::next_try;
     }
     return false;
 }
@@ -232,12 +231,12 @@ void CurveCompression::go_on(const HbmOptions &options) {
     const double force = std::abs(options_.force_scale), next = std::abs(options.force_scale);
     const Level before = last_;
     last_ = {force, change_};
-    if (better_ != whole_) left_out_ /= less; // the last one was better than it needed to be
+    if (better_ != whole_) left_out_ /= ErrorBudget::next_try; // the last one was better than it needed to be
     // The error of the last two levels goes on as a power of the force.
     if (better_ == whole_ && before.change > 0 && change_ > 0 && before.force != force && next > 0) {
         const double power = std::log(change_ / before.change) / std::log(force / before.force),
                      growth = std::pow(next / force, power);
-        if (growth * change_ > tolerance() && grow_to(spare * tolerance() / growth)) last_ = {};
+        if (growth * change_ > tolerance() && grow_to(tolerance_predicted() / growth)) last_ = {};
     }
     if (force > 0 && next > 0) scale_ *= next / force;
     options_ = options;
@@ -273,7 +272,7 @@ bool CurveCompression::grow_at(const ReducedModel &model, const BranchPoint &poi
     needs_.springs.push_back(mean_springs(model, point));
     take(uncompressed(model, point), needs_.motions);
     take(corrected_on_whole(model, point), needs_.motions);
-    left_out_ *= less;
+    left_out_ *= ErrorBudget::next_try;
     const auto larger = compressed_after(&model);
     if (larger->size() <= model.size() || is_dear(*larger) || !saves(*larger, {})) return false;
     model_ = larger;
@@ -288,7 +287,7 @@ bool CurveCompression::confirms(const Branch &curve) {
     if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
         compare_with_whole(curve);
         if (change_ <= tolerance()) return true;
-        grow_to(spare * tolerance());
+        grow_to(tolerance_predicted());
         return false;
     }
     std::vector<Point> one(1);
@@ -297,7 +296,7 @@ bool CurveCompression::confirms(const Branch &curve) {
     take(one[0].motion, needs_.motions);
     one[0].motion = corrected_on_whole(curve.reduced(), exact);
     take(one[0].motion, needs_.motions);
-    left_out_ *= less;
+    left_out_ *= ErrorBudget::next_try;
     better_ = compressed_after(&curve.reduced());
     change_ = settle(better_, one);
     needs_.append(one[0].needs);
@@ -316,7 +315,7 @@ bool CurveCompression::confirms(const Branch &curve) {
 void CurveCompression::grow_beside(std::vector<Point> &highest) {
     for (std::int64_t round = 0; round < most_rounds; ++round) {
         CurveCompression next(*this);
-        next.left_out_ *= less;
+        next.left_out_ *= ErrorBudget::next_try;
         const auto larger = next.compressed_after(model_.get());
         if (is_dear(*larger)) return;
         const double change = settle(larger, highest);

@@ -11,6 +11,9 @@
 
 namespace plm {
 
+/// Of its size: a motion farther away than this, on another model, is another one.
+constexpr double same_motion = 0.1;
+
 /// Whether a curve of exact motions on this model (P_0 = P) is to be followed on a compressed one.
 bool compresses(const ReducedModel &whole, const HbmOptions &options);
 
@@ -77,6 +80,7 @@ class CurveCompression {
     /// Whether a model is so much smaller than the whole one that a curve on it is worth its making.
     bool saves(const ReducedModel &smaller, const std::vector<Point> &points) const;
     double tolerance() const;
+    double tolerance_predicted() const;
     bool is_dear(const ReducedModel &model) const;
     bool is_last_not_dear(const ReducedModel &model) const;
     /// last: the one that this one grows from; null: none.

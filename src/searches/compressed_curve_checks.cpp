@@ -14,7 +14,6 @@ namespace {
 // Of multipliers near the unit circle, on curves of cracked plates; and of motions whose multipliers are
 // right to that.
 constexpr double multiplier_error = 1e-4, motion_error = 1e-5;
-constexpr double same_motion = 0.1; // of its size: farther away it is another one
 
 // Half-way between special points, of which one is no fold.
 vector<std::size_t> beside_changes(const std::vector<BranchPoint> &points) {

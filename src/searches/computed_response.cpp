@@ -2,6 +2,7 @@
 #include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/error_budget.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
@@ -32,10 +33,12 @@ class Chain {
           effort_(effort), watch_(watch) {
         options_.accuracy = accuracy;
         const double of_host = model_->space_options().reduction_error;
-        if (of_host <= allowed_of_host * accuracy) accuracy_ -= of_host; // else check_host_reduction() speaks
+        if (of_host <= ErrorBudget(accuracy).host())
+            accuracy_ -= of_host; // else check_host_reduction() speaks
     }
 
     ComputedResponse run() {
+        watch_.log(1, ErrorBudget(options_.accuracy).text(options_.allowed_harmonic_error()));
         const std::int64_t before = work_done();
         const auto smallest = basis_for(0);
         const double setup = static_cast<double>(work_done() - before);

@@ -1,7 +1,7 @@
 #include "searches/fold_tracking.hpp"
 #include "hbm/harmonic_choice.hpp"
+#include "motions/fold_system.hpp"
 #include "motions/tracer.hpp"
-#include "searches/fold_system.hpp"
 #include "searches/point_equations.hpp"
 
 namespace plm {

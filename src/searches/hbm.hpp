@@ -2,21 +2,10 @@
 #pragma once
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
-#include "motions/branch.hpp"
+#include "motions/curve_findings.hpp"
 #include "searches/sweep.hpp"
 
 namespace plm {
-
-/// What plm_hbm_find_peak returns.
-struct Peak {
-    double frequency_hz = 0, amplitude = 0;
-    std::shared_ptr<const Branch> branch; // one point
-    double basis_error = 0;               // as basis_error_at() tells it
-    double harmonic_error = 0;            // what the harmonics leave out; below 0: not known
-    bool seen_in_time = false;            // that is by the motion in time (motion_in_time.hpp)
-    /// By how much it may be higher than the point found, of that: 0 where it was closed in upon.
-    double above = 0;
-};
 
 class Basis;           // reduction/basis.hpp
 struct IsolatedSearch; // isolated.hpp

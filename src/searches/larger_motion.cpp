@@ -27,8 +27,7 @@ constexpr std::int64_t least_points = 20; // fewer lead nowhere
 // Of a backbone, which only shows where the force of the curve is met again: what is met is made exact.
 constexpr double tolerance_on_the_way = 1e-6;
 constexpr std::size_t most_resonances = 2, most_curves = 2;
-constexpr double same = 1e-4;       // relative distance of two phase-resonant motions
-constexpr double same_height = 0.1; // of the amplitude, on a compressed model and on its basis
+constexpr double same = 1e-4; // relative distance of two phase-resonant motions
 
 // A crossing of a backbone with the force of the curve.
 struct Crossing {
@@ -211,7 +210,7 @@ class SearchBeside {
         if (!make_exact_nearest(whole, options_, there, work) || stability_of(there) != 1) return false;
         Branch one(whole, curve_.force_scale(), curve_.period_multiple());
         one.append(std::move(there));
-        return std::abs(amplitude(one, 0) / height - 1) < same_height;
+        return std::abs(amplitude(one, 0) / height - 1) <= same_motion;
     }
 
     double force_at(const BranchPoint *extremum, ForceExtremum kind) const {

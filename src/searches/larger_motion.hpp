@@ -5,16 +5,8 @@
 #pragma once
 #include "reduction/basis.hpp"
 #include "searches/hbm.hpp"
-#include <optional>
 
 namespace plm {
-
-struct LargerMotion {
-    double frequency_hz = 0, amplitude = 0; // of the highest stable motion
-    std::shared_ptr<const Branch> curve;    // that it lies on
-    // force scales between which that exists, by the extrema of the backbone; NaN: not known
-    double force_low = 0, force_high = 0;
-};
 
 /// What is looked at: the basis and the options that `curve` was followed with, and its highest motion.
 struct KnownResponse {

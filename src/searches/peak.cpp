@@ -2,6 +2,7 @@
 #include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/error_budget.hpp"
 #include "motions/peak_search.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "searches/basis_error.hpp"
@@ -32,10 +33,9 @@ class CloserLook {
         error_ = point_.motion ? 0 : point_.harmonic_error;
     }
 
-    // Where harmonics are chosen, an order better than on the curve: one point is cheap, and its amplitude is
-    // what people quote.
+    // Where harmonics are chosen, an order better than on the curve.
     void close_in() {
-        const double wanted = 0.1 * options_.allowed_harmonic_error();
+        const double wanted = ErrorBudget::peak_of_harmonics * options_.allowed_harmonic_error();
         if (automatic_) error_ = error_here();
         do {
             if (error_ > wanted)
@@ -210,7 +210,7 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
         of_motion ? basis_error_at(made_as_, options_, *one, 0, of,
                                    std::max(few_flops, flops_of(branch, options_)), watch_, &of_structure)
                   : NAN;
-    if (std::isnan(by_basis) && of_motion && made_as_ && is_unreduced(*made_as_))
+    if (std::isnan(by_basis) && of_motion && made_as_ && is_unreduced(*made_as_->reduced(), *made_as_))
         by_basis = branch.model_error;
     if (!of_structure.empty()) {
         point.multipliers = std::move(of_structure);

@@ -2,9 +2,9 @@
 #include "hbm/modes_at_rest.hpp"
 #include "linalg/work.hpp"
 #include "motions/motion_measures.hpp"
+#include "motions/phase_system.hpp"
 #include "motions/response_at_force.hpp"
 #include "motions/tracer.hpp"
-#include "searches/phase_system.hpp"
 #include "searches/point_equations.hpp"
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #include "searches/refinement.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/error_budget.hpp"
 #include "motions/responses.hpp"
 #include "reduction/basis_kind.hpp"
 #include "searches/basis_error.hpp"
@@ -17,14 +18,12 @@ constexpr std::int64_t corrected = 60; // points whose corrected motions make th
 // What is left then is not in the motions, as where the estimate itself is no nearer.
 constexpr std::int64_t most_in_vain = 2;
 constexpr double clearly_smaller = 0.7;
-constexpr double compression = 0.2;      // of the tolerance, at first
-constexpr double next_compression = 0.3; // of the last one, when it was not enough
 
 class Refiner {
   public:
     Refiner(std::shared_ptr<const Basis> start, const RefinementOptions &options, Watch watch)
         : start_(std::move(start)), options_(options), watch_(watch), full_(unreduced_basis(start_, watch)),
-          pod_tolerance_(compression * options.tolerance) {}
+          pod_tolerance_(ErrorBudget(options.tolerance).refined_basis()) {}
 
     /// What there is when the effort is spent is the answer.
     Refinement run(std::shared_ptr<const Branch> known) {
@@ -58,7 +57,7 @@ class Refiner {
             }
             best.rounds = round;
             if (round >= options_.max_rounds || in_vain >= most_in_vain) return;
-            if (compressed) pod_tolerance_ *= next_compression;
+            if (compressed) pod_tolerance_ *= ErrorBudget::next_try;
             basis = compress(*branch);
         }
     }

@@ -3,6 +3,7 @@
 #include "hbm/harmonic_point.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/error_budget.hpp"
 #include "motions/first_harmonics.hpp"
 #include "motions/free_motion.hpp"
 #include "motions/motion_measures.hpp"
@@ -214,13 +215,12 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
 
 std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     constexpr std::int64_t few_points = 250;
-    constexpr double several_seconds = 2e10;   // flops
-    constexpr double share_of_accuracy = 1e-2; // what a few harmonics leave out is much more
+    constexpr double several_seconds = 2e10; // flops
     SweepTask look = task;
     look.exact = false;
     look.recorder = nullptr; // made again in seconds
     look.options.motion = MotionKind::harmonics;
-    look.options.tolerance = std::max(task.options.tolerance, share_of_accuracy * task.options.accuracy);
+    look.options.tolerance = std::max(task.options.tolerance, ErrorBudget(task.options.accuracy).look());
     look.options.max_points = std::min(few_points, task.options.max_points);
     look.options.stability = StabilityKind::off;
     look.options.bifurcations = false;

@@ -7,8 +7,8 @@
 #include "hbm/start.hpp"
 #include "hbm/system.hpp"
 #include "linalg/support.hpp"
+#include "motions/phase_system.hpp"
 #include "reduction/reduced_rest.hpp"
-#include "searches/phase_system.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"
 #include <algorithm>

@@ -1,9 +1,9 @@
 // Folds and phase resonance as equations, over harmonic balance and over exact motions alike: derivatives.
 #include "hbm/make_system.hpp"
+#include "motions/fold_system.hpp"
+#include "motions/phase_system.hpp"
 #include "reduction/reduced_rest.hpp"
-#include "searches/fold_system.hpp"
 #include "searches/phase_resonance.hpp"
-#include "searches/phase_system.hpp"
 #include "searches/point_equations.hpp"
 #include "support/small_reduced.hpp"
 #include "support/test.hpp"

@@ -1,4 +1,4 @@
-#include "searches/fold_system.hpp"
+#include "motions/fold_system.hpp"
 #include "motions/response_at_force.hpp"
 
 namespace plm {

@@ -1,4 +1,4 @@
-#include "searches/phase_system.hpp"
+#include "motions/phase_system.hpp"
 #include <algorithm>
 
 namespace plm {

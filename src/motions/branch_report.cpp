@@ -1,4 +1,4 @@
-#include "searches/branch_report.hpp"
+#include "motions/branch_report.hpp"
 #include "linalg/status.hpp"
 #include "motions/branch_csv.hpp"
 #include "reduction/basis_kind.hpp"
