@@ -49,6 +49,8 @@ void set_harmonics(Matrix &eta, std::int64_t n);
 
 /// |x - x'| over the dynamic part and |omega - omega'|, both relative; small for the same solution.
 double solution_distance(const BranchPoint &a, const BranchPoint &b);
+/// Less apart, two that were found in two ways are one: far more than they are computed to.
+inline constexpr double same_response = 1e-4;
 
 /// The motion a + t (b - a), at that frequency; all else is a's.
 BranchPoint between(const BranchPoint &a, const BranchPoint &b, double t);

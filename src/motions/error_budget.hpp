@@ -10,6 +10,8 @@ class ErrorBudget {
   public:
     constexpr explicit ErrorBudget(double accuracy) : accuracy_(accuracy) {}
 
+    /// What the harmonics leave out: the basis takes its share, too.
+    double harmonics() const { return 0.5 * accuracy_; }
     /// A host's own reduction (a superelement): with more no basis can mend it; the rest is the basis'.
     double host() const { return 0.5 * accuracy_; }
     /// A compressed model against its basis, at the highest motion: the basis takes its share, too; and where

@@ -1,5 +1,6 @@
 // What is asked of the periodic motions on a curve, whichever equations they solve.
 #pragma once
+#include "motions/error_budget.hpp"
 #include <cstdint>
 
 namespace plm {
@@ -23,9 +24,8 @@ struct MotionOptions {
     StabilityKind stability = StabilityKind::automatic; // Floquet multipliers of each point
     bool bifurcations = true;                           // locate folds, branch points, ...
 
-    /// Half of the accuracy, unless set: the basis takes its share.
     double allowed_harmonic_error() const {
-        return harmonic_tolerance > 0 ? harmonic_tolerance : 0.5 * accuracy;
+        return harmonic_tolerance > 0 ? harmonic_tolerance : ErrorBudget(accuracy).harmonics();
     }
 };
 

@@ -66,7 +66,7 @@ void OrbitEquations::set_other(double value) {
 
 EquationsMemory OrbitEquations::settle() {
     run_.known = remembered_.known = false;
-    return {modes_->settle(), before_, last_, guessed_};
+    return {modes_->settle(), before_, last_, guessed_, {}};
 }
 
 void OrbitEquations::take(const EquationsMemory &memory) {

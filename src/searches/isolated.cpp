@@ -16,7 +16,6 @@
 namespace plm {
 namespace {
 
-constexpr double same_resonance = 1e-5;      // relative distance of phase-resonant points
 constexpr std::int64_t largest_system = 400; // unknowns of the backbone when harmonics are chosen by point
 // Of the backbone and of the folds where harmonics are chosen; an exact motion that is not found from as many
 // is looked for from twice and four times as many.
@@ -95,7 +94,7 @@ class Search {
 
     bool is_known(const BranchPoint &p) const {
         return std::any_of(known_.begin(), known_.end(),
-                           [&](const BranchPoint &k) { return solution_distance(k, p) < same_resonance; });
+                           [&](const BranchPoint &k) { return solution_distance(k, p) < same_response; });
     }
 
     // Resonances of the main branch that no backbone from rest has met.
@@ -129,7 +128,7 @@ class Search {
             Seed seed{points[at[k]], backbone.branch, minimum, maximum};
             if (!resonance_.correct(options_.force_scale, seed.point)) continue;
             if (std::any_of(seeds.begin(), seeds.end(), [&](const Seed &s) {
-                    return solution_distance(s.point, seed.point) < same_resonance;
+                    return solution_distance(s.point, seed.point) < same_response;
                 }))
                 continue;
             for (std::size_t other : at) {

@@ -27,7 +27,6 @@ constexpr std::int64_t least_points = 20; // fewer lead nowhere
 // Of a backbone, which only shows where the force of the curve is met again: what is met is made exact.
 constexpr double tolerance_on_the_way = 1e-6;
 constexpr std::size_t most_resonances = 2, most_curves = 2;
-constexpr double same = 1e-4; // relative distance of two phase-resonant motions
 
 // A crossing of a backbone with the force of the curve.
 struct Crossing {
@@ -137,7 +136,8 @@ class SearchBeside {
         std::vector<Crossing> found;
         for (std::size_t i : backbone.crossings) {
             BranchPoint point = points[i];
-            if (!resonance.correct(curve_.force_scale(), point) || solution_distance(point, start) < same)
+            if (!resonance.correct(curve_.force_scale(), point) ||
+                solution_distance(point, start) < same_response)
                 continue;
             extremum.push_back(farthest(points, at.back(), i));
             const double reach = solution_distance(points[at.back()], point), size = amplitude(point);

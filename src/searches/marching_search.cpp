@@ -14,8 +14,6 @@
 namespace plm {
 namespace {
 
-constexpr double same_solution = 1e-4; // relative distance at one frequency
-
 class Marching {
   public:
     Marching(std::shared_ptr<const ReducedModel> reduced, const MarchingOptions &options,
@@ -146,7 +144,7 @@ class Marching {
                 if (left * right > 0 || left == right) continue;
                 BranchPoint guess = between(points[i - 1], points[i], left / (left - right));
                 guess.omega = point.omega;
-                if (correct(guess) && solution_distance(guess, point) < same_solution) return true;
+                if (correct(guess) && solution_distance(guess, point) < same_response) return true;
             }
         }
         return false;

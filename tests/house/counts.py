@@ -70,10 +70,10 @@ RULES = [
     },
     {
         "what": "files take a share of an accuracy: motions/error_budget.hpp divides it",
-        # Half of it is for the harmonics, in motions/options.hpp. A study asks for a better reference, which divides nothing.
+        # A study asks for a better reference, which divides nothing.
         "pattern": r"\* (?:\w+(?:\.|->))*accuracy_?\b|\baccuracy_? [*/]",
         "outside": "study",
-        "limit": 2,
+        "limit": 1,
         "other_senses": [],
     },
 ]
