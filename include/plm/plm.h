@@ -727,7 +727,7 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * until what either leaves out is estimated to be within. Outputs: frequency (Hz) and amplitude of the peak;
  * error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm: the solver that computed it, to go on with
  * (other points, isolated branches, stability), with its basis behind it, or NULL. With pre-load or gaps motions beside
- * the curve are looked for at the same force, for no more work than the curve took: PLM_WARNING with
+ * the curve are looked for at the same force, for about as much work as the curve took: PLM_WARNING with
  * PLM_REASON_LARGER_MOTION where a stable one is larger than the peak; "larger_amplitude" and "larger_frequency_hz" of hbm
  * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
  * error is an upper bound of the relative error of amplitude and frequency, and NaN on a curve that ended early or has no
