@@ -169,6 +169,34 @@ class Saved(unittest.TestCase):
         self.assertTrue(same(end, whole) and end.end_reason == whole.end_reason)
         self.assertEqual([one.name for one in self.path.parent.iterdir()], ["curve.plm"])
 
+    def test_on_compressed_models(self):
+        """Nothing set, many coordinates: stopped on the first compressed model or on the next one, whose making is done again."""
+        basis = models.stopped_chain()
+        said, versions, hbm = [], [], plm.Hbm(basis)
+        basis.context.log = lambda _level, text: said.append(text)
+
+        def look(_stage, _fraction):
+            data = self.path.read_bytes() if self.path.exists() else b""
+            if data and data not in versions[-1:]:
+                versions.append(data)
+        hbm.save_every(9, self.path)
+        whole = quietly(hbm.sweep, progress=look)
+        basis.context.log = None
+        self.assertTrue(any(text.startswith("compressed to") for text in said), said)
+        hbm.save_every(0)
+        n = [len(plm.Branch.from_bytes(basis, data)) for data in versions]
+        second = next(i for i in range(1, len(n)) if n[i] < n[i - 1])  # where the next model's curve begins
+        part = cancelled(basis, {}, n_calls(basis, {}) * 3 // 4)
+        self.assertEqual(part.status, plm.CANCELLED)
+        parts = [versions[second // 2], versions[-2], part.to_bytes()]
+        with multiprocessing.get_context("spawn").Pool(1) as pool:  # from bytes alone
+            elsewhere = pool.apply(resume_elsewhere, ((basis.to_bytes(), parts[0], {}),))
+        ends = [plm.Branch.from_bytes(basis, elsewhere)]
+        ends += [quietly(hbm.resume, plm.Branch.from_bytes(basis, data)) for data in parts[1:]]
+        for i, end in enumerate(ends):
+            self.assertTrue(same(end, whole), (i, n, len(part), len(end), len(whole)))
+            self.assertEqual((end.status, end.end_reason), (whole.status, whole.end_reason), i)
+
     def test_no_longer(self):
         hbm = plm.Hbm(models.basis(), n_harmonics=3)
         hbm.save_every(5, self.path)
