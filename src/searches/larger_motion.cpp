@@ -93,6 +93,7 @@ class SearchBeside {
         o.hbm.max_points = points;
         o.hbm.tolerance = std::max(o.hbm.tolerance, tolerance_on_the_way);
         o.exact = exact_;
+        o.only_special = true;
         return o;
     }
 
@@ -124,7 +125,7 @@ class SearchBeside {
         found.resize(std::min(found.size(), most_curves));
         for (const Crossing &crossing : found)
             if (is_larger(crossing.amplitude)) follow(crossing);
-        return static_cast<std::int64_t>(backbone.branch->points().size());
+        return backbone.n_passed;
     }
 
     // All but the start. A loop lies between a maximum of the force, where it merges, and the minimum beyond.
