@@ -12,8 +12,8 @@
 namespace plm {
 namespace {
 
-constexpr std::int32_t crossing = -1; // kind of the test function force - force_scale
-constexpr double longest_step = 0.1;  // of a backbone: extrema of the force come in close pairs
+enum : std::int32_t { crossing = -1 }; // kind of the test function force - force_scale
+constexpr double longest_step = 0.1;   // of a backbone: extrema of the force come in close pairs
 // Where a backbone ends below: upwards what is of interest begins beside the force asked for; downwards it
 // comes to nothing, or turns.
 constexpr double below_the_force = 0.5, next_to_nothing = 1e-3; // of the force asked for, of the start's
