@@ -40,7 +40,7 @@ add_custom_command(
     COMMAND sh ${PROJECT_SOURCE_DIR}/cmake/blas_kernels.sh ${CMAKE_C_COMPILER} ${CMAKE_AR} ${CMAKE_OBJCOPY}
             ${PLM_OPENBLAS_ARCHIVE} ${PLM_BLAS_KERNELS}
     DEPENDS ${PROJECT_SOURCE_DIR}/cmake/blas_kernels.sh ${PLM_OPENBLAS_ARCHIVE}
-    VERBATIM COMMENT "What of OpenBLAS asks the system, to ask us")
+    VERBATIM COMMENT "OpenBLAS's kernels for small products")
 add_custom_target(plm_blas_kernels DEPENDS ${PLM_BLAS_KERNELS})
 # ARPACK and LAPACK are Fortran: their runtime is versioned and stays shared.
 find_library(PLM_GFORTRAN_LIBRARY NAMES gfortran libgfortran.so.5 PATHS ${CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES} REQUIRED)

@@ -1,6 +1,5 @@
-/* The OpenBLAS that a self-contained libplm carries takes the widest kernels that it has for the processor.
- * Debian's knows AVX-512 of Intel's alone, and would take those for half as wide registers on others that
- * have it. What the user sets (OPENBLAS_CORETYPE) goes before. */
+/* The OpenBLAS that a self-contained libplm carries takes the widest kernels that it has for the processor,
+ * or those that the user asks for (OPENBLAS_CORETYPE). */
 #include "check_host.h"
 #include <plm/plm.h>
 #include <stdlib.h>
