@@ -205,7 +205,9 @@ static plm_status run_block(plm_context *ctx, block_outcome *o) {
 }
 
 #ifdef __SANITIZE_THREAD__
-enum { FEWEST = 3 }; /* threads; watched, each number takes a minute, and results are compared where none watches */
+enum {
+    FEWEST = 3
+}; /* threads; watched, each number takes a minute, and results are compared where none watches */
 #else
 enum { FEWEST = 1 };
 #endif

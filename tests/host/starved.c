@@ -2,8 +2,8 @@
  * CHOLMOD, FFTW, the BLAS, the language's runtimes), alone or with all that follow. The library must say
  * PLM_ERR_MEMORY, or have got on without; the same context then does the run with the results it has always
  * had. Nothing may crash, end the process, or hang. Arguments: every STEP-th allocation only, from FIRST on,
- * 'alone' or 'followed' by all others; otherwise the two take turns. FIRST 0: another one on each day, so that
- * in STEP days each has failed. */
+ * 'alone' or 'followed' by all others; otherwise the two take turns. FIRST 0: another one on each day, so
+ * that in STEP days each has failed. */
 #define _GNU_SOURCE
 #include "check_host.h"
 #include "whole_run.h"
