@@ -52,7 +52,7 @@ CallSizes sizes_of(Operation operation, const std::int64_t *v) {
                        static_cast<int>(operation)));
 }
 
-void Executor::begin(Rows rows, const MatrixParts &parts) {
+void Executor::begin(Rows rows, MatrixParts &parts) {
     rows_ = std::move(rows);
     matrices_ = Matrices(team_, rows_, parts);
 }

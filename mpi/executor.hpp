@@ -52,7 +52,7 @@ class Executor {
     Executor(const Executor &) = delete;
     Executor &operator=(const Executor &) = delete;
     /// Collective, before all else.
-    void begin(Rows rows, const MatrixParts &parts);
+    void begin(Rows rows, MatrixParts &parts);
     /// Collective; throws on all ranks alike.
     void run(const Call &call);
     /// Collective: gives up all blocks and factors.
