@@ -129,6 +129,7 @@ void Matrices::find_ghosts(Team &team, const Rows &rows, const Lists &lists) {
     std::vector<double> support;
     team.together([&] {
         ghost_.resize(ghosts_.size() * Exchange::width);
+        abreast_.resize((fixed_.size() + ghosts_.size()) * abreast);
         support.assign(fixed_.begin(), fixed_.end());
     });
     halo_.run(team, 1, support.data(), rows.count(), ghost_.data(), ghost_rows());
@@ -190,18 +191,45 @@ double Matrices::largest(const Weights &w) const {
 void Matrices::apply(Team &team, const Weights &w, std::int64_t cols, const double *y, std::int64_t ld_y,
                      double *x, std::int64_t ld_x) {
     halo_.run(team, cols, y, ld_y, ghost_.data(), ghost_rows());
-    for (std::int64_t first = 0; first < cols; first += 4) { // four columns for each pass over the matrix
-        const std::int64_t n = std::min<std::int64_t>(4, cols - first);
-        for (std::int64_t i = 0; i < rows(); ++i) {
-            double sum[4] = {0, 0, 0, 0};
-            for (std::size_t p = start_[static_cast<std::size_t>(i)];
-                 p < start_[static_cast<std::size_t>(i) + 1]; ++p) {
-                const double a = entry(p, w);
-                for (std::int64_t j = 0; j < n; ++j) sum[j] += a * of(y, ld_y, column_[p], first + j);
-            }
-            for (std::int64_t j = 0; j < n; ++j) x[i + (first + j) * ld_x] = sum[j];
+    const auto with = [&](auto value) {
+        for (std::int64_t first = 0; first < cols;)
+            if (cols - first == 1)
+                first += multiply<1>(value, first, cols, y, ld_y, x, ld_x);
+            else
+                first += multiply<abreast>(value, first, cols, y, ld_y, x, ld_x);
+    };
+    const double *m = value_[0].data(), *k = value_[1].data();
+    if (w.k == 0 && w.c == 0)
+        with([=](std::size_t p) { return w.m * m[p]; });
+    else if (w.m == 0 && w.c == 0)
+        with([=](std::size_t p) { return w.k * k[p]; });
+    else
+        with([&](std::size_t p) { return entry(p, w); });
+}
+
+/// At most `width` columns from `first` on, of which the entries of a row stand side by side meanwhile: one
+/// pass over the matrix, and one place in memory for each of its entries.
+template <int width, class Value>
+std::int64_t Matrices::multiply(Value value, std::int64_t first, std::int64_t cols, const double *y,
+                                std::int64_t ld_y, double *x, std::int64_t ld_x) {
+    const std::int64_t n = std::min<std::int64_t>(width, cols - first);
+    double *by_rows = abreast_.data();
+    const auto pack = [&](const double *from, std::int64_t count, std::int64_t ld) {
+        for (std::int64_t i = 0; i < count; ++i, by_rows += width)
+            for (int j = 0; j < width; ++j) by_rows[j] = j < n ? from[i + (first + j) * ld] : 0;
+    };
+    pack(y, rows(), ld_y), pack(ghost_.data(), ghost_rows(), ghost_rows());
+    for (std::int64_t i = 0; i < rows(); ++i) {
+        double sum[width] = {};
+        for (std::size_t p = start_[static_cast<std::size_t>(i)]; p < start_[static_cast<std::size_t>(i) + 1];
+             ++p) {
+            const double a = value(p);
+            const double *row = abreast_.data() + static_cast<std::ptrdiff_t>(column_[p]) * width;
+            for (int j = 0; j < width; ++j) sum[j] += a * row[j];
         }
+        for (std::int64_t j = 0; j < n; ++j) x[i + (first + j) * ld_x] = sum[j];
     }
+    return n;
 }
 
 void Matrices::energy(Team &team, const Weights &w, std::int64_t cols, const double *x, std::int64_t ld,

@@ -80,6 +80,11 @@ class Matrices {
     void find_ghosts(Team &team, const Rows &rows, const Lists &lists);
     void store(const Rows &rows, const Lists &lists);
 
+    static constexpr int abreast = 8; // columns that one pass over the matrix multiplies
+    template <int width, class Value>
+    std::int64_t multiply(Value value, std::int64_t first, std::int64_t cols, const double *y,
+                          std::int64_t ld_y, double *x, std::int64_t ld_x);
+
     double entry(std::size_t p, const Weights &w) const {
         return w.m * value_[0][p] + w.k * value_[1][p] + (w.c != 0 ? w.c * value_[2][p] : 0);
     }
@@ -97,6 +102,7 @@ class Matrices {
     std::vector<char> fixed_;
     std::vector<std::int64_t> ghosts_; // DOFs of other ranks that rows here refer to, ascending
     std::vector<double> ghost_;        // their values, Exchange::width columns
+    std::vector<double> abreast_;      // entries of own rows and ghosts, side by side
     Exchange halo_;
     std::vector<std::size_t> start_;
     std::vector<std::int32_t> column_; // local row, or rows() + place among the ghosts
