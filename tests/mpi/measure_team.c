@@ -143,9 +143,9 @@ __attribute__((visibility("default"))) int sched_yield(void) {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     const double since = (double)(now.tv_sec - last.tv_sec) + 1e-9 * (double)(now.tv_nsec - last.tv_nsec);
-    nap.tv_nsec = since < 5e-5 && nap.tv_nsec < 1000000 ? nap.tv_nsec + nap.tv_nsec / 2 + 1000
-                  : since < 5e-5                        ? nap.tv_nsec
-                                                        : 1000;
+    nap.tv_nsec = since < 5e-5 && nap.tv_nsec < 100000 ? nap.tv_nsec + nap.tv_nsec / 2 + 1000
+                  : since < 5e-5                       ? nap.tv_nsec
+                                                       : 1000;
     const int code = nanosleep(&nap, NULL);
     clock_gettime(CLOCK_MONOTONIC, &last);
     return code;

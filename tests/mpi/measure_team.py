@@ -17,9 +17,14 @@ def measured(n, *more):
     return line.strip().splitlines()[-1].split(", ")
 
 
-lines = [measured(1, "serial"), *(measured(n) for n in ranks)]
-base = lines[1] if len(lines) > 1 else lines[0]
-print(f"{lines[0][2]} DOFs\n\n| | ranks | hand-over | build | 30 modes | count | samples, basis | all, slowest rank | faster than one rank | MiB, largest rank "
-      "| of one rank's | MiB, all |\n|--|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
-for who, n, _, *steps, most, mib, total in lines:
-    print(f"| {who} | {n} | {' | '.join(steps)} | {most} | {float(base[-3]) / float(most):.2f} | {mib} | {float(mib) / float(base[-2]):.2f} | {total} |")
+runs = [(1, "serial"), *((n,) for n in ranks)]
+base = None
+for run in runs:
+    who, n, dofs, *steps, most, mib, total = measured(*run)
+    if run == runs[0]:
+        print(f"{dofs} DOFs\n\n| | ranks | hand-over | build | 30 modes | count | samples, basis | all, slowest rank | faster than one rank "
+              "| MiB, largest rank | of one rank's | MiB, all |\n|--|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|--:|")
+    elif base is None:
+        base = float(most), float(mib)
+    compared = f"{base[0] / float(most):.2f} | {mib} | {float(mib) / base[1]:.2f}" if base else f" | {mib} | "
+    print(f"| {who} | {n} | {' | '.join(steps)} | {most} | {compared} | {total} |", flush=True)
