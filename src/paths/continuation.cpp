@@ -1,10 +1,12 @@
 #include "paths/continuation.hpp"
 #include "linalg/error.hpp"
+#include "paths/path_guide.hpp"
 #include "paths/path_return.hpp"
 #include "paths/special_points.hpp"
 #include "paths/step_length.hpp"
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 namespace plm {
 namespace {
@@ -13,6 +15,9 @@ namespace {
 constexpr double after_failure = 0.4; // of the step that failed
 constexpr double first_step = 0.2,
                  step_after_rescue = 0.05; // of the largest: nothing is known of the path ahead
+
+// Than steps of its own is one that a neighbouring path has shown the end of.
+const double longer_if_foreseen = getenv("LONGER") ? atof(getenv("LONGER")) : 2;
 
 // Where a correction may lead: it moves in the plane across the step, so that the distance from the last
 // point is about that step, unless it has come upon another piece of the path.
@@ -114,11 +119,19 @@ class Continuation {
     }
 
     void advance() {
-        PathState next = predict(out_.step);
-        const NewtonOutcome out =
-            walker_.correct(next, walker_.tangent(), across_damping, walker_.is_factored());
+        PathState next, across;
+        double step = out_.step;
+        const bool foreseen = foresee(next, across);
+        if (foreseen) {
+            step = walker_.metric().distance(next, walker_.now());
+        } else {
+            next = predict(step);
+            across = walker_.tangent();
+        }
+        guides_ = !foreseen;
+        const NewtonOutcome out = walker_.correct(next, across, across_damping, walker_.is_factored());
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
-        if (!is_near(out, moved, out_.step)) return retry(out.reason);
+        if (!is_near(out, moved, step)) return foreseen ? unforeseen() : retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
         const vector<double> old_tests = out_.tests;
         walker_.move(std::move(next));
@@ -132,17 +145,31 @@ class Continuation {
             out_.step > shortenable * options_.min_step) { // a corner: closer first
             walker_.move(before);
             walker_.set_tangent(old_tangent);
-            return retry(reason::step_minimum);
+            return foreseen ? unforeseen() : retry(reason::step_minimum);
         }
         // The steps cannot resolve this corner (contact that begins with a grazing touch bends the path like
         // the square root of the way): beyond a right angle the nearer of the two directions leads back.
         if (angle > PathWalker::sharp_angle) walker_.orient(out_.orientation);
-        if (!accept(out, moved, old_tangent, before)) return retry(reason::step_minimum);
+        if (!accept(out, moved, old_tangent, before))
+            return foreseen ? unforeseen() : retry(reason::step_minimum);
+        guides_ = true;
         if (angle > PathWalker::sharp_angle) out_.last_step = 0; // a corner is no bend
         out_.orientation = walker_.orientation();
         out_.step = std::min(way_to_change(old_tests, out_.tests, moved, options_.max_step),
-                             out_.step * step_growth(angle, out));
+                             out_.step * step_growth(angle * out_.step / step, out));
         out_.step = std::min(options_.max_step, std::max(options_.min_step, out_.step));
+    }
+
+    // Where the step leads, as the neighbouring path has it; once from every point.
+    bool foresee(PathState &next, PathState &across) {
+        return options_.guide && guides_ &&
+               options_.guide->foresee(walker_.now(), walker_.tangent(), walker_.metric(),
+                                       longer_if_foreseen * out_.step, next, across);
+    }
+    void unforeseen() {
+        ++out_.failed_steps;
+        ++out_.failed_now;
+        walker_.set_factored(false);
     }
 
     // False: the step crossed to another curve, see find_special_points(); the path is back before it.
@@ -366,6 +393,7 @@ class Continuation {
     PathOwner &owner_;
     PathReturn back_;
     bool interrupted_ = false;
+    bool guides_ = true; // the neighbouring path is asked at the next step
     PathOutcome out_; // so far
 };
 
