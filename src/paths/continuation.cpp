@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <cstdio>
 
 namespace plm {
 namespace {
@@ -129,8 +130,10 @@ class Continuation {
             across = walker_.tangent();
         }
         guides_ = !foreseen;
+        const PathState guess = next;
         const NewtonOutcome out = walker_.correct(next, across, across_damping, walker_.is_factored());
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
+        if (getenv("DBG")) fprintf(stderr,"%d p %.4f step %.4f own %.4f err %.2e moved %.4f it %d conv %d\n",(int)foreseen,next.parameter/6.2831853,step,out_.step,walker_.metric().distance(next,guess),moved,(int)out.iterations,(int)out.converged);
         if (!is_near(out, moved, step)) return foreseen ? unforeseen() : retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
         const vector<double> old_tests = out_.tests;

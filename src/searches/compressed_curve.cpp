@@ -119,11 +119,8 @@ bool CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, 
     if (point.amplitude >= 0) point.change = std::abs(now - point.amplitude) / peak_;
     point.amplitude = now;
     point.unstable = stability_of(exact) == 0;
-    point.needs = {};
-    point.needs.springs.push_back(mean_springs(*model, exact));
-    take(uncompressed(*model, exact), point.needs.motions);
+    point.needs = needs_at(*model, exact);
     point.motion = corrected_on_whole(*model, exact);
-    take(point.motion, point.needs.motions);
     point.exact = std::move(exact);
     return true;
 }
@@ -227,7 +224,7 @@ bool CurveCompression::begin_with(const Branch &look) {
 }
 
 // What compression leaves out is a share of the motions, which are about as large as the force.
-void CurveCompression::go_on(const HbmOptions &options) {
+void CurveCompression::go_on(const HbmOptions &options, const Branch &curve) {
     const double force = std::abs(options_.force_scale), next = std::abs(options.force_scale);
     const Level before = last_;
     last_ = {force, change_};
@@ -236,17 +233,28 @@ void CurveCompression::go_on(const HbmOptions &options) {
     if (better_ == whole_ && before.change > 0 && change_ > 0 && before.force != force && next > 0) {
         const double power = std::log(change_ / before.change) / std::log(force / before.force),
                      growth = std::pow(next / force, power);
-        if (growth * change_ > tolerance() && grow_to(tolerance_predicted() / growth)) last_ = {};
+        if (growth * change_ > tolerance() && grow_to(tolerance_predicted() / growth, curve)) last_ = {};
     }
     if (force > 0 && next > 0) scale_ *= next / force;
     options_ = options;
 }
 
-// Until the motion that the whole basis has at the curve's highest point is so near on a model. False: none
-// much smaller than the whole one is.
-bool CurveCompression::grow_to(double enough) {
-    take(top_on_better_, needs_.motions);
-    needs_.springs.push_back(mean_springs(*whole_, top_on_better_));
+CurveCompression::Needs CurveCompression::needs_at(const ReducedModel &model, const BranchPoint &exact) const {
+    Needs needs;
+    needs.springs.push_back(mean_springs(model, exact));
+    take(uncompressed(model, exact), needs.motions);
+    if (model.from) take(corrected_on_whole(model, exact), needs.motions);
+    return needs;
+}
+
+// From what the curve's own motions ask for, until the motion that the whole basis has at its highest point
+// is so near on a model. False: none much smaller than the whole one is.
+bool CurveCompression::grow_to(double enough, const Branch &curve) {
+    needs_ = needs_at(*whole_, top_on_better_);
+    for (std::int64_t i : spread_over(curve, motions_looked_at)) {
+        const BranchPoint &p = curve.points()[static_cast<std::size_t>(i)];
+        if (p.motion) needs_.append(needs_at(curve.reduced(), p));
+    }
     const double amplitude_there = amplitude(whole_, top_on_better_);
     std::int64_t size = 0;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
@@ -269,9 +277,7 @@ bool CurveCompression::grow_to(double enough) {
 
 // By what the whole basis answers at one point of a curve. False: such a model saves nothing.
 bool CurveCompression::grow_at(const ReducedModel &model, const BranchPoint &point) {
-    needs_.springs.push_back(mean_springs(model, point));
-    take(uncompressed(model, point), needs_.motions);
-    take(corrected_on_whole(model, point), needs_.motions);
+    needs_.append(needs_at(model, point));
     left_out_ *= ErrorBudget::next_try;
     const auto larger = compressed_after(&model);
     if (larger->size() <= model.size() || is_dear(*larger) || !saves(*larger, {})) return false;
@@ -287,7 +293,7 @@ bool CurveCompression::confirms(const Branch &curve) {
     if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
         compare_with_whole(curve);
         if (change_ <= tolerance()) return true;
-        grow_to(tolerance_predicted());
+        grow_to(tolerance_predicted(), curve);
         return false;
     }
     std::vector<Point> one(1);

@@ -95,7 +95,7 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
 bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> &compression) {
     if (task.level_before && task.level_before->compression) {
         compression = std::move(task.level_before->compression);
-        compression->go_on(task.options);
+        compression->go_on(task.options, *task.level_before->curve);
         return true;
     }
     compression = std::make_shared<CurveCompression>(task.reduced, task.options,
@@ -129,6 +129,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
             require_unstopped(*branch);
             if (is_stuck(*branch)) return nullptr;
             whole = branch;
+            if (task.level_before) task.level_before->curve = branch;
             const bool confirmed = compression.confirms(*branch);
             if (std::isfinite(compression.error())) branch->model_error = compression.error();
             if (!confirmed && !compression.is_spent()) {
