@@ -74,12 +74,13 @@ class CurveTracer : public Tracer {
   private:
     PathState state_of(const BranchPoint &point) const { return {equations_->unknowns(point), point.omega}; }
 
-    /// Along the curve of another force level, from the end that is nearer to omega; null: it is of another model.
+    /// Along the curve of another force level, from the end that is nearer to omega; null: it is of another
+    /// model.
     std::unique_ptr<PathGuide> guide_by(const Branch *known, double omega) const;
 
     const MotionOptions limits_;
     std::unique_ptr<PathGuide> guide_; // or null
-    std::int64_t since_stand_ = 0; // steps
+    std::int64_t since_stand_ = 0;     // steps
 };
 
 } // namespace plm

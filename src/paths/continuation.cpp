@@ -6,8 +6,6 @@
 #include "paths/step_length.hpp"
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <cstdio>
 
 namespace plm {
 namespace {
@@ -17,8 +15,8 @@ constexpr double after_failure = 0.4; // of the step that failed
 constexpr double first_step = 0.2,
                  step_after_rescue = 0.05; // of the largest: nothing is known of the path ahead
 
-// Than steps of its own is one that a neighbouring path has shown the end of.
-const double longer_if_foreseen = getenv("LONGER") ? atof(getenv("LONGER")) : 2;
+// Than the longest steps of its own is one that a neighbouring path shows the end of.
+constexpr double longer_if_foreseen = 3;
 
 // Where a correction may lead: it moves in the plane across the step, so that the distance from the last
 // point is about that step, unless it has come upon another piece of the path.
@@ -48,7 +46,8 @@ constexpr int most_rescues = 5; // more lead in circles: back to where the path 
 class Continuation {
   public:
     Continuation(Residual &system, const PathOptions &options, PathOwner &owner)
-        : walker_(system, options, owner), options_(options), owner_(owner), back_(walker_, system.size()) {}
+        : walker_(system, options, owner), options_(options), owner_(owner), back_(walker_, system.size()),
+          way_(options.max_step) {}
 
     PathOutcome run(const PathStart &start) {
         begin(start);
@@ -130,10 +129,8 @@ class Continuation {
             across = walker_.tangent();
         }
         guides_ = !foreseen;
-        const PathState guess = next;
         const NewtonOutcome out = walker_.correct(next, across, across_damping, walker_.is_factored());
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
-        if (getenv("DBG")) fprintf(stderr,"%d p %.4f step %.4f own %.4f err %.2e moved %.4f it %d conv %d\n",(int)foreseen,next.parameter/6.2831853,step,out_.step,walker_.metric().distance(next,guess),moved,(int)out.iterations,(int)out.converged);
         if (!is_near(out, moved, step)) return foreseen ? unforeseen() : retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
         const vector<double> old_tests = out_.tests;
@@ -158,8 +155,8 @@ class Continuation {
         guides_ = true;
         if (angle > PathWalker::sharp_angle) out_.last_step = 0; // a corner is no bend
         out_.orientation = walker_.orientation();
-        out_.step = std::min(way_to_change(old_tests, out_.tests, moved, options_.max_step),
-                             out_.step * step_growth(angle * out_.step / step, out));
+        way_ = way_to_change(old_tests, out_.tests, moved, options_.max_step);
+        out_.step = std::min(way_, out_.step * step_growth(angle * out_.step / step, out));
         out_.step = std::min(options_.max_step, std::max(options_.min_step, out_.step));
     }
 
@@ -167,7 +164,7 @@ class Continuation {
     bool foresee(PathState &next, PathState &across) {
         return options_.guide && guides_ &&
                options_.guide->foresee(walker_.now(), walker_.tangent(), walker_.metric(),
-                                       longer_if_foreseen * out_.step, next, across);
+                                       longer_if_foreseen * way_, next, across);
     }
     void unforeseen() {
         ++out_.failed_steps;
@@ -396,8 +393,9 @@ class Continuation {
     PathOwner &owner_;
     PathReturn back_;
     bool interrupted_ = false;
+    double way_;         // to a change of the owner's test functions, as far as it is in sight
     bool guides_ = true; // the neighbouring path is asked at the next step
-    PathOutcome out_; // so far
+    PathOutcome out_;    // so far
 };
 
 } // namespace

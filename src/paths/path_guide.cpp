@@ -6,10 +6,12 @@ namespace plm {
 namespace {
 
 constexpr std::size_t most_offsets = 3; // a parabola
-// A path that has gone elsewhere so often in a row is none that the neighbour knows of.
+// A path that has ended elsewhere than foreseen so often in a row is none that the neighbour knows of.
 constexpr std::size_t most_missed = 3;
-constexpr double farthest = 0.5;  // from the neighbour, as lengths along a path count
-constexpr double forward = 0.5;   // cosine of the way to what is foreseen with the path's own direction
+constexpr double farthest = 0.5; // from the neighbour, as lengths along a path count
+// Cosines: of the neighbour's directions where a step begins and ends (0.55 rad, short of a corner), and of
+// the way there with the path's own direction.
+constexpr double turned = 0.85, forward = 0.5;
 
 } // namespace
 
@@ -75,13 +77,14 @@ bool PathGuide::foresee(const PathState &now, const PathState &tangent, const Me
     n_missed_ = foreseen_ > at ? n_missed_ + 1 : 0;
     foreseen_ = 0;
     if (metric.length(known_.back().way) > farthest) return false;
+    const PathState here = direction_at(at, metric);
     for (std::size_t i = at + 1; i + 1 < n_; ++i) {
         PathState there = offset_at(i, metric);
         const PathState along = direction_at(i, metric);
         add(-metric.product(there, along), along, there);
         add(1, point(i), there);
         const PathState way = difference(there, now);
-        if (metric.length(way) > longest) break;
+        if (metric.length(way) > longest || metric.cosine(along, here) < turned) break;
         if (metric.cosine(way, tangent) < forward) continue;
         next = std::move(there);
         direction = along;

@@ -14,8 +14,8 @@ class PathGuide {
     PathGuide(std::size_t n_points, PointOf point_of) : n_(n_points), point_of_(std::move(point_of)) {}
 
     /// From a point of the path and the direction in which it goes on: a point close to the path, about
-    /// across from one of the neighbouring path, as far as `longest` if there is one, and the direction there.
-    /// False: nothing is known.
+    /// across from one of the neighbouring path, as far as `longest` if there is one, and the direction
+    /// there. False: nothing is known.
     bool foresee(const PathState &now, const PathState &tangent, const Metric &metric, double longest,
                  PathState &next, PathState &direction);
 

@@ -22,6 +22,8 @@ constexpr double a_little_less = 0.6;
 // Where all pairs bounce, their motions have something of every direction, most of it too little to move an
 // amplitude: a model grows by no more than this from one to the next.
 constexpr double grows = 1.5;
+// The same where the whole basis is at hand to compare with: by no more than is needed.
+constexpr double grows_beside_whole = 1.1;
 // Above, a step takes a tenth of a second, and motions take a share of the accuracy, too. Below, they are as
 // exact as others: near grazing, multipliers answer to the root of an error.
 constexpr double long_step = 5e8; // flops
@@ -73,9 +75,13 @@ bool CurveCompression::is_dear(const ReducedModel &model) const {
 }
 
 std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const ReducedModel *last) const {
+    return compressed_to(last ? grows * static_cast<double>(last->size())
+                              : static_cast<double>(whole_->size()));
+}
+
+std::shared_ptr<const ReducedModel> CurveCompression::compressed_to(double most) const {
     std::vector<vector<double>> springs = needs_.springs;
     springs.push_back(whole_->contact.stiffness);
-    const double most = last ? grows * static_cast<double>(last->size()) : whole_->size();
     return compress_beside_modes(whole_, needs_.motions, springs, omega_, left_out_, slow_modes * highest_,
                                  static_cast<std::int64_t>(most));
 }
@@ -233,13 +239,14 @@ void CurveCompression::go_on(const HbmOptions &options, const Branch &curve) {
     if (better_ == whole_ && before.change > 0 && change_ > 0 && before.force != force && next > 0) {
         const double power = std::log(change_ / before.change) / std::log(force / before.force),
                      growth = std::pow(next / force, power);
-        if (growth * change_ > tolerance() && grow_to(tolerance_predicted() / growth, curve)) last_ = {};
+        if (growth * change_ > tolerance() && grow_to(tolerance_predicted(), curve)) last_ = {};
     }
     if (force > 0 && next > 0) scale_ *= next / force;
     options_ = options;
 }
 
-CurveCompression::Needs CurveCompression::needs_at(const ReducedModel &model, const BranchPoint &exact) const {
+CurveCompression::Needs CurveCompression::needs_at(const ReducedModel &model,
+                                                   const BranchPoint &exact) const {
     Needs needs;
     needs.springs.push_back(mean_springs(model, exact));
     take(uncompressed(model, exact), needs.motions);
@@ -256,11 +263,13 @@ bool CurveCompression::grow_to(double enough, const Branch &curve) {
         if (p.motion) needs_.append(needs_at(curve.reduced(), p));
     }
     const double amplitude_there = amplitude(whole_, top_on_better_);
+    double most = static_cast<double>(model_->size());
     std::int64_t size = 0;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
         left_out_ *= a_little_less;
-        const auto larger = compressed_after(model_.get());
-        if (static_cast<double>(larger->size()) > much_smaller * static_cast<double>(whole_->size())) break;
+        most = std::min(std::ceil(grows_beside_whole * most),
+                        much_smaller * static_cast<double>(whole_->size()));
+        const auto larger = compressed_to(most);
         if (larger->size() == size) continue;
         size = larger->size();
         BranchPoint point = top_on_better_;
@@ -293,8 +302,7 @@ bool CurveCompression::confirms(const Branch &curve) {
     if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
         compare_with_whole(curve);
         if (change_ <= tolerance()) return true;
-        grow_to(tolerance_predicted(), curve);
-        return false;
+        return !grow_to(tolerance_predicted(), curve) && change_ <= options_.accuracy;
     }
     std::vector<Point> one(1);
     one[0].motion = uncompressed(curve.reduced(), exact);

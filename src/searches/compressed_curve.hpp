@@ -85,6 +85,7 @@ class CurveCompression {
     bool is_last_not_dear(const ReducedModel &model) const;
     /// last: the one that this one grows from; null: none.
     std::shared_ptr<const ReducedModel> compressed_after(const ReducedModel *last) const;
+    std::shared_ptr<const ReducedModel> compressed_to(double most) const;
     /// Solves the exact motions beside the points on this model, but for those that have settled: only the
     /// last one, the highest, is never left out. Returns the largest change of an amplitude over the peak;
     /// infinite where none can be compared.

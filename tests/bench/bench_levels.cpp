@@ -76,10 +76,11 @@ void compare(const Bench &b, double level, const plm::Branch &curve) {
     const Swept alone = b.sweep(level, nullptr);
     print_curve("alone", level, alone);
     const plm::Peak here = b.peak(level, curve), there = b.peak(level, *alone.curve);
-    std::printf("peak %.10g Hz %.10g, differs from that of the level alone by %.1e, %.1e; ended with %d, %d\n",
-                here.frequency_hz, here.amplitude, here.frequency_hz / there.frequency_hz - 1,
-                here.amplitude / there.amplitude - 1, static_cast<int>(curve.end_reason),
-                static_cast<int>(alone.curve->end_reason));
+    std::printf(
+        "peak %.10g Hz %.10g, differs from that of the level alone by %.1e, %.1e; ended with %d, %d\n",
+        here.frequency_hz, here.amplitude, here.frequency_hz / there.frequency_hz - 1,
+        here.amplitude / there.amplitude - 1, static_cast<int>(curve.end_reason),
+        static_cast<int>(alone.curve->end_reason));
 }
 
 void run(const Bench &b, double highest, bool check) {
