@@ -119,19 +119,15 @@ class Continuation {
     }
 
     void advance() {
-        PathState next, across;
-        double step = out_.step;
-        const bool foreseen = foresee(next, across);
-        if (foreseen) {
-            step = walker_.metric().distance(next, walker_.now());
-        } else {
-            next = predict(step);
-            across = walker_.tangent();
-        }
-        guides_ = !foreseen;
+        PathState next, across = walker_.tangent();
+        foreseen_ = !astray_ && options_.guide &&
+                    options_.guide->foresee(walker_.now(), walker_.tangent(), walker_.metric(),
+                                            longer_if_foreseen * way_, next, across);
+        if (!foreseen_) next = predict(out_.step);
+        const double step = foreseen_ ? walker_.metric().distance(next, walker_.now()) : out_.step;
         const NewtonOutcome out = walker_.correct(next, across, across_damping, walker_.is_factored());
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
-        if (!is_near(out, moved, step)) return foreseen ? unforeseen() : retry(out.reason);
+        if (!is_near(out, moved, step)) return retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
         const vector<double> old_tests = out_.tests;
         walker_.move(std::move(next));
@@ -145,31 +141,18 @@ class Continuation {
             out_.step > shortenable * options_.min_step) { // a corner: closer first
             walker_.move(before);
             walker_.set_tangent(old_tangent);
-            return foreseen ? unforeseen() : retry(reason::step_minimum);
+            return retry(reason::step_minimum);
         }
         // The steps cannot resolve this corner (contact that begins with a grazing touch bends the path like
         // the square root of the way): beyond a right angle the nearer of the two directions leads back.
         if (angle > PathWalker::sharp_angle) walker_.orient(out_.orientation);
-        if (!accept(out, moved, old_tangent, before))
-            return foreseen ? unforeseen() : retry(reason::step_minimum);
-        guides_ = true;
+        if (!accept(out, moved, old_tangent, before)) return retry(reason::step_minimum);
+        astray_ = false;
         if (angle > PathWalker::sharp_angle) out_.last_step = 0; // a corner is no bend
         out_.orientation = walker_.orientation();
         way_ = way_to_change(old_tests, out_.tests, moved, options_.max_step);
         out_.step = std::min(way_, out_.step * step_growth(angle * out_.step / step, out));
         out_.step = std::min(options_.max_step, std::max(options_.min_step, out_.step));
-    }
-
-    // Where the step leads, as the neighbouring path has it; once from every point.
-    bool foresee(PathState &next, PathState &across) {
-        return options_.guide && guides_ &&
-               options_.guide->foresee(walker_.now(), walker_.tangent(), walker_.metric(),
-                                       longer_if_foreseen * way_, next, across);
-    }
-    void unforeseen() {
-        ++out_.failed_steps;
-        ++out_.failed_now;
-        walker_.set_factored(false);
     }
 
     // False: the step crossed to another curve, see find_special_points(); the path is back before it.
@@ -290,6 +273,8 @@ class Continuation {
         ++out_.failed_steps;
         ++out_.failed_now;
         walker_.set_factored(false);
+        astray_ = astray_ || foreseen_;
+        if (foreseen_) return; // the next step is one of its own
         out_.plain_predictor = out_.failed_steps % 2 == 0;
         out_.step *= after_failure;
         if (out_.step >= options_.min_step) return;
@@ -393,9 +378,10 @@ class Continuation {
     PathOwner &owner_;
     PathReturn back_;
     bool interrupted_ = false;
-    double way_;         // to a change of the owner's test functions, as far as it is in sight
-    bool guides_ = true; // the neighbouring path is asked at the next step
-    PathOutcome out_;    // so far
+    double way_; // to a change of the owner's test functions, as far as it is in sight
+    // Whether the step goes where the neighbouring path shows, and whether the last one that did failed.
+    bool foreseen_ = false, astray_ = false;
+    PathOutcome out_; // so far
 };
 
 } // namespace
