@@ -190,29 +190,41 @@ double Branch::amplitude(std::int64_t point, const DofInBasis &dof, Measure meas
     return amplitude_of(coefficients(point, dof), measure, harmonic);
 }
 
-// Extrema of an exact motion take a run through its period. Its harmonics spare that where they tell that it
-// is far from the top: by a tenth, and by what the upper half of them adds.
+// Extrema take a search, those of an exact motion a run through its period. The sum of the harmonics spares
+// the search where it tells that the point is far from the top, by a tenth; they themselves the run, by what
+// the upper half of them adds.
 std::int64_t Branch::highest_point(std::int64_t dof, Measure measure, std::int64_t harmonic) const {
     constexpr double far_below = 0.9;
-    vector<double> height, reach;
-    double most = 0;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        const vector<double> c = coefficients(static_cast<std::int64_t>(i), dof);
-        height.push_back(std::abs(amplitude_of(c, measure, harmonic)));
-        most = std::max(most, height[i]);
-        reach.push_back(height[i]);
-        for (std::int64_t h = points_[i].n_harmonics / 2 + 1; h <= n_harmonics_; ++h)
-            reach[i] += std::hypot(c[2 * h - 1], c[2 * h]);
+    struct Known {
+        std::int64_t point;
+        vector<double> harmonics;
+        double reach, tail; // of all harmonics and of the upper half, at most
+    };
+    std::vector<Known> all;
+    for (std::int64_t i = 0; i < static_cast<std::int64_t>(points_.size()); ++i) {
+        Known k{i, coefficients(i, dof), 0, 0};
+        k.reach = std::abs(k.harmonics[0]);
+        for (std::int64_t h = 1; h <= n_harmonics_; ++h) {
+            const double size = std::hypot(k.harmonics[2 * h - 1], k.harmonics[2 * h]);
+            k.reach += size;
+            if (2 * h > points_[i].n_harmonics) k.tail += size;
+        }
+        all.push_back(std::move(k));
     }
-    std::size_t top = 0;
-    double highest = -1;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-        if (reach[i] < far_below * most) continue;
-        if (has_own_extrema(points_[i], measure))
-            height[i] = std::abs(amplitude(static_cast<std::int64_t>(i), dof, measure, harmonic));
-        if (height[i] > highest) highest = height[i], top = i;
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Known &a, const Known &b) { return a.reach + a.tail > b.reach + b.tail; });
+    std::int64_t top = 0;
+    double highest = -1, most = 0;
+    for (const Known &k : all) {
+        if (k.reach + k.tail < far_below * most) break;
+        double height = std::abs(amplitude_of(k.harmonics, measure, harmonic));
+        most = std::max(most, height);
+        if (height + k.tail < far_below * most) continue;
+        if (has_own_extrema(points_[k.point], measure))
+            height = std::abs(amplitude(k.point, dof, measure, harmonic));
+        if (height > highest || (height == highest && k.point < top)) highest = height, top = k.point;
     }
-    return static_cast<std::int64_t>(top);
+    return top;
 }
 
 vector<double> Branch::history(std::int64_t point, std::int64_t dof, std::int64_t n) const {

@@ -2,8 +2,7 @@
 #include "linalg/lapack.hpp"
 #include "orbits/orbit_point.hpp"
 #include "orbits/orbit_points.hpp"
-#include "orbits/recorded_motion.hpp"
-#include "orbits/work_gradient.hpp"
+#include "orbits/orbit_work.hpp"
 #include "structure/driven_harmonic.hpp"
 #include <algorithm>
 #include <cmath>
@@ -124,30 +123,24 @@ MotionGradient ExactEquations::tangent_change(const vector<double> &w, const vec
     return gradient;
 }
 
+// By the contact of the motion of the last residual(), whose last interval ends with the period.
 double ExactEquations::work(double omega, double force) const {
     if (harmonic_ == 0) return 0;
-    OrbitConditions at = orbits_.conditions(omega);
-    at.force_scale = force;
-    RecordedMotion motion;
-    ExactFlow flow = at.flow(orbits_.shared_model(), orbits_.modes());
-    FlowState state = orbits_.state(x_.data());
-    flow.complete(state);
-    flow.advance(state, static_cast<double>(options_.period_multiple) * flow.period(), &motion);
-    const Matrix q = motion.harmonics(harmonic_ * options_.period_multiple, 1);
-    const HarmonicLoad f = load(omega);
-    double sum = 0;
-    for (std::int64_t j = 0; j < q.rows(); ++j) {
-        sum += f.real[j] * q(j, 0);
-        if (!f.imag.empty()) sum -= f.imag[j] * q(j, 1);
-    }
-    return 0.5 * sum;
+    std::vector<ContactInterval> intervals = orbits_.intervals();
+    const double period = 2 * M_PI / omega * static_cast<double>(options_.period_multiple);
+    double rest = period;
+    for (const ContactInterval &interval : intervals) rest -= interval.duration;
+    if (!intervals.empty()) intervals.back().duration += rest;
+    return orbit_work(orbits_.shared_model(), orbits_.state(x_.data()), omega, force, intervals, load(omega),
+                      harmonic_ * omega, *orbits_.modes()) /
+           period;
 }
 
 double ExactEquations::phase() {
     return phase_size_ * (work_ = work(omega_, options_.force_scale));
 }
 
-// None where a set has no modes of its own.
+// None where a set has no modes of its own. By the force the work is linear as long as the events stay.
 bool ExactEquations::phase_gradient(MotionGradient &gradient) {
     gradient = {vector<double>(x_.size()), 0, 0};
     if (harmonic_ == 0) return true;
@@ -156,10 +149,10 @@ bool ExactEquations::phase_gradient(MotionGradient &gradient) {
     if (gradient.by_unknowns.empty()) return false;
     orbits_.to_unknowns(gradient.by_unknowns);
     const double period = 2 * M_PI / omega_ * static_cast<double>(options_.period_multiple),
-                 force = options_.force_scale, d_omega = told_by * omega_, d_force = told_by * force;
+                 force = options_.force_scale, d_omega = told_by * omega_;
     for (double &d : gradient.by_unknowns) d *= phase_size_ / period;
     gradient.by_frequency = phase_size_ * (work(omega_ + d_omega, force) - work_) / d_omega;
-    gradient.by_force = phase_size_ * (work(omega_, force + d_force) - work_) / d_force;
+    gradient.by_force = phase_size_ * (work(omega_, 2 * force) - work_) / force;
     return true;
 }
 

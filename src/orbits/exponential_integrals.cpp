@@ -56,4 +56,13 @@ Complex exponential_integral(Complex rate, double duration, Complex end) {
     return duration * sum;
 }
 
+HarmonicIntegrals harmonic_integrals(Complex rate, double omega, double begin, double duration) {
+    const Complex turn(0, omega), up = rate + turn, down = rate - turn;
+    const Complex ahead = std::polar(1.0, omega * begin) *
+                          exponential_integral(up, duration, std::exp(up * duration)),
+                  back = std::polar(1.0, -omega * begin) *
+                         exponential_integral(down, duration, std::exp(down * duration));
+    return {0.5 * (ahead + back), Complex(0, -0.5) * (ahead - back)};
+}
+
 } // namespace plm

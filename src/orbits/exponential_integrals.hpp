@@ -14,4 +14,10 @@ void exponential_moments(std::complex<double> rate, std::complex<double> end, st
 std::complex<double> exponential_integral(std::complex<double> rate, double duration,
                                           std::complex<double> end);
 
+/// Integrals of cos and sin (omega t) exp(rate (t - begin)) over [begin, begin + duration].
+struct HarmonicIntegrals {
+    std::complex<double> cosine, sine;
+};
+HarmonicIntegrals harmonic_integrals(std::complex<double> rate, double omega, double begin, double duration);
+
 } // namespace plm

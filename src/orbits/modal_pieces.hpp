@@ -41,6 +41,9 @@ class ModalPieces {
     /// To `duration` beyond the beginning of the last piece.
     void advance(double duration);
 
+    /// Integral of Re(load exp(i frequency t)) . y from now on (modal_work.cpp). Not with free motions.
+    double work(const HarmonicLoad &load, double frequency, double duration) const;
+
     /// In the place of expand(), where no polynomials are needed (modal_stay.cpp). False: free motions are
     /// known by their powers alone.
     bool begin_stay();

@@ -1,6 +1,7 @@
 #include "searches/basis_error.hpp"
 #include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
 #include <algorithm>
@@ -10,17 +11,11 @@
 namespace plm {
 namespace {
 
-// The estimate by harmonics factors one matrix of all gaps in all harmonics, and forms vectors of the
-// unreduced structure: so many numbers for a flop.
-constexpr double of_factor = 2.0 / 3.0, numbers_for_a_flop = 0.01;
 // An exact motion is compared with fewer harmonics than it has where they are many, but not with fewer.
 constexpr std::int64_t least_harmonics = 5;
 // A point that misses the equations of the whole structure by more of its size is too far from the better
 // solution for steps along tangents to tell how far.
 constexpr double too_far = 0.02;
-
-// Of the effort that is left: something has to be left for what comes after.
-constexpr double share_of_estimate = 0.8;
 
 constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
 
@@ -28,7 +23,7 @@ constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
 std::int64_t affordable_harmonics(const Branch &branch, std::int64_t point, double flops) {
     const BranchPoint &p = branch.points()[static_cast<std::size_t>(point)];
     const std::int64_t has = harmonics_of(p, branch.period_multiple()) * branch.period_multiple(),
-                       unknowns = static_cast<std::int64_t>(std::cbrt(flops / of_factor)),
+                       unknowns = static_cast<std::int64_t>(std::cbrt(flops / EffortBudget::of_factor)),
                        most = (unknowns / branch.reduced().n_whole_pairs() - 1) / 2;
     if (has <= most) return std::max<std::int64_t>(has, 1);
     return p.motion && most >= least_harmonics * branch.period_multiple() ? most : 0;
@@ -42,7 +37,7 @@ bool can_be_judged(const Basis &basis, const Branch &branch, double flops) {
     return space.is_contact_space && branch.reduced().n_pairs() > 0 && !branch.sampled && !branch.is_mode &&
            !(damping.has_matrix && !damping.modal_ratio.empty()) &&
            static_cast<double>(space.vectors.rows()) * static_cast<double>(space.size()) <
-               numbers_for_a_flop * flops;
+               EffortBudget::numbers_for_a_flop * flops;
 }
 
 } // namespace
@@ -94,7 +89,7 @@ double basis_error_at(const std::shared_ptr<const Basis> &basis, const HbmOption
     try {
         HbmOptions o = options;
         o.max_harmonics = affordable_harmonics(branch, point, flops) / branch.period_multiple();
-        within(share_of_estimate * effort_left(), [&] {
+        within(EffortBudget::most * effort_left(), [&] {
             const ErrorEstimator estimator(unreduced_basis(basis, watch)->reduced(), branch, o, flops);
             const bool by_harmonics = !estimator.moves_whole(point);
             if (by_harmonics && o.max_harmonics == 0) return;
@@ -138,7 +133,7 @@ double multiplier_error_of(const std::shared_ptr<const Basis> &basis, const HbmO
         }
     };
     try {
-        within(share_of_estimate * effort_left(), compare);
+        within(EffortBudget::most * effort_left(), compare);
     } catch (const Error &e) {
         if (e.status() == status::cancelled || e.status() == status::memory) throw;
     }

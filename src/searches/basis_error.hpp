@@ -21,8 +21,6 @@ double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::i
 /// nothing by the basis.
 bool is_unreduced(const ReducedModel &reduced, const Basis &basis);
 
-/// What an estimate may cost by itself, flops: some tenths of a second.
-constexpr double few_flops = 2e9;
 /// What a curve of exact motions has cost, estimated: what it may cost to judge it.
 double flops_of(const Branch &curve, const HbmOptions &options);
 

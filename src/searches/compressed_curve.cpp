@@ -1,5 +1,6 @@
 #include "searches/compressed_curve.hpp"
 #include "motions/compressed_motion.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/error_budget.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
@@ -12,8 +13,6 @@
 namespace plm {
 namespace {
 
-// Below, a step on the basis itself takes some hundredths of a second, and a curve few seconds.
-constexpr double dear_step = 2e7; // flops
 constexpr std::int64_t many_coordinates = 30;
 // What is left out of the motions, in the energy norm: at first. The amplitudes that follow are nearer.
 constexpr double left_out_at_first = 1e-3;
@@ -24,13 +23,6 @@ constexpr double a_little_less = 0.6;
 constexpr double grows = 1.5;
 // The same where the whole basis is at hand to compare with: by no more than is needed.
 constexpr double grows_beside_whole = 1.1;
-// Above, a step takes a tenth of a second, and motions take a share of the accuracy, too. Below, they are as
-// exact as others: near grazing, multipliers answer to the root of an error.
-constexpr double long_step = 5e8; // flops
-// A model that is not smaller than this share of the whole saves nothing.
-constexpr double much_smaller = 0.7;
-// Nor one of this share where contact bounces: its motions need more of the basis as they are followed.
-constexpr double much_smaller_where_unstable = 0.6;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
 
@@ -44,11 +36,16 @@ bool compresses(const ReducedModel &whole, const HbmOptions &options) {
     return options.motion == MotionKind::automatic && prefers_exact_compressed(whole, options) &&
            whole.same_static && !whole.all_pairs && !whole.from && whole.model &&
            options.period_multiple == 1 && whole.size() >= many_coordinates &&
-           exact_step_flops(whole, options) > dear_step;
+           exact_step_flops(whole, options) > EffortBudget::step_to_compress;
+}
+
+bool is_much_smaller(const ReducedModel &model, const ReducedModel &whole) {
+    constexpr double much_smaller = 0.7;
+    return static_cast<double>(model.size()) <= much_smaller * static_cast<double>(whole.size());
 }
 
 HbmOptions options_on(const ReducedModel &model, HbmOptions options) {
-    if (model.from && exact_step_flops(model, options) > long_step)
+    if (model.from && exact_step_flops(model, options) > EffortBudget::long_step)
         options.tolerance = std::max(options.tolerance, ErrorBudget(options.accuracy).dear_motions());
     return options;
 }
@@ -124,7 +121,6 @@ bool CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, 
     const double now = amplitude(model, exact);
     if (point.amplitude >= 0) point.change = std::abs(now - point.amplitude) / peak_;
     point.amplitude = now;
-    point.unstable = stability_of(exact) == 0;
     point.needs = needs_at(*model, exact);
     point.motion = corrected_on_whole(*model, exact);
     point.exact = std::move(exact);
@@ -171,12 +167,8 @@ std::vector<CurveCompression::Point> CurveCompression::points_of(const Branch &l
     return points;
 }
 
-bool CurveCompression::saves(const ReducedModel &smaller, const std::vector<Point> &points) const {
-    const auto is_unstable = [](const Point &p) { return p.unstable; };
-    const bool bounces = std::count_if(points.begin(), points.end(), is_unstable) > 1;
-    return has_flow(smaller) &&
-           static_cast<double>(smaller.size()) <=
-               (bounces ? much_smaller_where_unstable : much_smaller) * static_cast<double>(whole_->size());
+bool CurveCompression::saves(const ReducedModel &smaller) const {
+    return has_flow(smaller) && is_much_smaller(smaller, *whole_);
 }
 
 // Whatever its motions are, no better model would be followed than this one.
@@ -198,7 +190,7 @@ bool CurveCompression::begin_with(const Branch &look) {
             model_ = before;
             return true;
         }
-        if (!saves(*smaller, points)) {
+        if (!saves(*smaller)) {
             model_ = before; // or a curve on the whole one does not end in minutes
             return before &&
                    (change <= ErrorBudget(options_.accuracy).step_to_last_model() || is_dear(*whole_));
@@ -220,7 +212,7 @@ bool CurveCompression::begin_with(const Branch &look) {
         // the change is what the model before made wrong, this one's error is a part of it
         if (change <= options_.accuracy) {
             model_ = change <= tolerance() ? before : smaller;
-            return saves(*model_, points);
+            return saves(*model_);
         }
         before = smaller;
         if (round > 0 && !std::isfinite(change)) return false;
@@ -267,9 +259,9 @@ bool CurveCompression::grow_to(double enough, const Branch &curve) {
     std::int64_t size = 0;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
         left_out_ *= a_little_less;
-        most = std::min(std::ceil(grows_beside_whole * most),
-                        much_smaller * static_cast<double>(whole_->size()));
+        most = std::ceil(grows_beside_whole * most);
         const auto larger = compressed_to(most);
+        if (!is_much_smaller(*larger, *whole_)) break;
         if (larger->size() == size) continue;
         size = larger->size();
         BranchPoint point = top_on_better_;
@@ -289,7 +281,7 @@ bool CurveCompression::grow_at(const ReducedModel &model, const BranchPoint &poi
     needs_.append(needs_at(model, point));
     left_out_ *= ErrorBudget::next_try;
     const auto larger = compressed_after(&model);
-    if (larger->size() <= model.size() || is_dear(*larger) || !saves(*larger, {})) return false;
+    if (larger->size() <= model.size() || is_dear(*larger) || !saves(*larger)) return false;
     model_ = larger;
     return true;
 }

@@ -17,6 +17,9 @@ constexpr double same_motion = 0.1;
 /// Whether a curve of exact motions on this model (P_0 = P) is to be followed on a compressed one.
 bool compresses(const ReducedModel &whole, const HbmOptions &options);
 
+/// Whether a model is so small that it saves time: what is followed on it needs more of the basis on its way.
+bool is_much_smaller(const ReducedModel &model, const ReducedModel &whole);
+
 /// Where the model is a compressed one and each step on it takes long, motions are exact to a few hundredths
 /// of the accuracy: the model has no more of it.
 HbmOptions options_on(const ReducedModel &model, HbmOptions options);
@@ -71,14 +74,13 @@ class CurveCompression {
         BranchPoint exact;  // on the last model that it was solved on
         double amplitude = -1;
         double change = INFINITY; // of the amplitude, by that model, over the peak
-        bool unstable = false;
-        Needs needs; // what its exact motion and the correction of that ask of a model
+        Needs needs;              // what its exact motion and the correction of that ask of a model
     };
 
     /// Points spread over a curve, among them the highest one; all its motions go to needs_.
     std::vector<Point> points_of(const Branch &look);
     /// Whether a model is so much smaller than the whole one that a curve on it is worth its making.
-    bool saves(const ReducedModel &smaller, const std::vector<Point> &points) const;
+    bool saves(const ReducedModel &smaller) const;
     double tolerance() const;
     double tolerance_predicted() const;
     bool is_dear(const ReducedModel &model) const;

@@ -2,6 +2,7 @@
 #include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/error_budget.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
@@ -18,12 +19,6 @@ namespace {
 // by exact motions on what they need of it: its matrices are nothing beside a curve then, and no basis adds
 // an error of its own.
 constexpr std::int64_t few_coordinates = 600;
-// Of the effort: what curves may have, and what their peak and its error have at least.
-constexpr double share_of_curves = 0.85;
-// Some seconds.
-constexpr double flops_of_first_curve = 1e10;
-// For the estimate of an error: some seconds.
-constexpr double much_flops = 4e10;
 
 class Chain {
   public:
@@ -45,7 +40,7 @@ class Chain {
         ComputedResponse best;
         {
             const Effort effort(std::max(effort_, setup));
-            const bool all = within(share_of_curves * effort_left(), [&] { search(smallest, best); });
+            const bool all = within(EffortBudget::most * effort_left(), [&] { search(smallest, best); });
             spent_ = !all;
             if (best.curve)
                 within(effort_left(), [&] { is_cut(best) ? find_peak(best) : estimate_error(best); });
@@ -80,13 +75,13 @@ class Chain {
             if (!best.curve || (is_whole(*first) && says_more(*first, *best.curve, watch_)))
                 best = with_curve(basis, first);
         };
-        unless_there_is(best, [&] { within(flops_of_first_curve, look); });
+        unless_there_is(best, [&] { within(EffortBudget::first_curve, look); });
         if (!best.curve)
             throw Error(status::cancelled,
                         "no periodic response was found with the effort allowed; raise the effort "
                         "of the context")
                 .reason(reason::effort);
-        const Effort little(flops_of_first_curve);
+        const Effort little(EffortBudget::first_curve);
         if (is_cut(best)) find_peak(best);
     }
 
@@ -174,7 +169,8 @@ class Chain {
     // Where the peak came without: for as much as is left.
     void estimate_error(ComputedResponse &r) const {
         if (std::isnan(r.error))
-            r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_, much_flops, watch_);
+            r.error = basis_error_at(r.basis, r.options, *r.peak.branch, 0, output_,
+                                     EffortBudget::last_estimate, watch_);
     }
 
     static bool is_whole(const Branch &curve) { return spans(curve) && !is_worthless(curve); }

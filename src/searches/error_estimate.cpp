@@ -4,6 +4,7 @@
 #include "hbm/make_system.hpp"
 #include "hbm/solved_point.hpp"
 #include "motions/branch_path.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/penetration.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
@@ -134,9 +135,6 @@ std::int64_t finer(std::int64_t harmonics) {
     return 2 * harmonics + 2;
 }
 
-// Newton's method takes so many steps, and the modes of new contact sets a few more.
-constexpr double steps_of_motion = 8;
-
 } // namespace
 
 ErrorEstimator::ErrorEstimator(std::shared_ptr<const ReducedModel> full, const Branch &branch,
@@ -193,7 +191,8 @@ bool ErrorEstimator::moves_whole(std::int64_t point) const {
     const HbmOptions o =
         options_at(branch_.points().at(static_cast<std::size_t>(point)), branch_.period_multiple(), options_);
     return branch_.points()[static_cast<std::size_t>(point)].motion && !branch_.reduced().all_pairs &&
-           !decays_hopelessly(*full_) && steps_of_motion * exact_step_flops(*full_, o) <= affordable_;
+           !decays_hopelessly(*full_) &&
+           EffortBudget::steps_beside * exact_step_flops(*full_, o) <= affordable_;
 }
 
 // The whole structure's own motion, across the curve from the point's own state. Nothing of it is cut off.

@@ -4,6 +4,7 @@
 #include "linalg/scale.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/free_motion.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_points.hpp"
@@ -90,12 +91,13 @@ void Hbm::judge(Branch &curve) const {
 }
 
 void Hbm::look_over(Branch &curve) const {
-    curve.set_multiplier_error(multiplier_error_of(made_as_, options_, curve,
-                                                   std::max(few_flops, flops_of(curve, options_)), watch_));
+    curve.set_multiplier_error(multiplier_error_of(
+        made_as_, options_, curve, std::max(EffortBudget::aside, flops_of(curve, options_)), watch_));
     check_window(window_, watch_, curve);
     const auto error = [&] {
         const std::int64_t top = largest_response(curve);
-        return basis_error_at(made_as_, options_, curve, top, most_moving(curve, top), few_flops, watch_);
+        return basis_error_at(made_as_, options_, curve, top, most_moving(curve, top), EffortBudget::aside,
+                              watch_);
     };
     check_basis(window_, error, watch_, curve);
     check_switching(watch_, curve);

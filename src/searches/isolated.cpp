@@ -22,15 +22,10 @@ constexpr std::int64_t largest_system = 400; // unknowns of the backbone when ha
 constexpr std::int64_t few_enough = 9;
 constexpr int most_doublings = 2;
 constexpr double weakest_resonance = 0.05; // of the main branch, against its largest response
-constexpr double backbone_reach = 8;       // times the force: where it ends unless the caller says otherwise
-constexpr double met_there = 1e-3;         // relative distance of a crossing, before it is corrected
-// What a model that a loop is followed on leaves out of its first motion, if it needs more than the curve's;
-// and how much smaller than the basis it has to be to save time.
-constexpr double left_out_of_loop[] = {3e-5, 1e-5}, smaller_enough = 0.9;
-// Two folds of the loop meet at an extremum of the force.
-constexpr double same_turn = 1e-4;
-// Where the folds are followed: from half the force on one side to twice the force on the other.
-constexpr double less_force = 0.5, more_force = 2;
+// What a model that a loop is followed on leaves out of its first motion, if it needs more than the curve's.
+constexpr double left_out_of_loop[] = {3e-5, 1e-5};
+// Where the folds are followed: from the force by this on one side to the force times this on the other.
+constexpr double aside = 2;
 // Beyond a swallowtail: few leaps, each a small part of the force, as long as the folds go on as they went.
 constexpr int most_leaps = 8;
 constexpr double leap_lengths[] = {2e-3, 5e-3, 1e-2};
@@ -50,8 +45,7 @@ class Search {
     Search(std::shared_ptr<const ReducedModel> reduced, const HbmOptions &options, const Branch &main,
            double force_max, Watch watch, std::shared_ptr<const ReducedModel> smaller)
         : reduced_(std::move(reduced)), smaller_(std::move(smaller)), options_(options), main_(main),
-          watch_(watch), force_max_(force_max > 0 ? force_max : backbone_reach * options.force_scale),
-          resonance_(reduced_, backbone_options(), watch),
+          watch_(watch), force_max_(force_max), resonance_(reduced_, backbone_options(), watch),
           exact_(reduced_->same_static && prefers_exact(*reduced_, options)) {}
 
     IsolatedSearch run() {
@@ -110,7 +104,7 @@ class Search {
     bool met(const BranchPoint &p) const {
         for (const Backbone &b : out_.backbones)
             for (std::size_t i : b.crossings)
-                if (solution_distance(b.branch->points()[i], p) < met_there) return true;
+                if (solution_distance(b.branch->points()[i], p) < same_response) return true;
         return false;
     }
 
@@ -176,9 +170,7 @@ class Search {
     std::shared_ptr<const ReducedModel> model_for(BranchPoint &start) const {
         auto model = start.motion ? smaller_ : nullptr;
         for (auto left_out = std::begin(left_out_of_loop);; ++left_out) {
-            if (!model ||
-                static_cast<double>(model->size()) > smaller_enough * static_cast<double>(reduced_->size()))
-                return reduced_;
+            if (!model || !is_much_smaller(*model, *reduced_)) return reduced_;
             if (on_model(model, start)) return model;
             if (left_out == std::end(left_out_of_loop)) return reduced_;
             model = compressed_with(*smaller_, start, 2 * M_PI * options_.frequency_max_hz, *left_out);
@@ -257,7 +249,7 @@ class Search {
         vector<double> turns;
         for (const BranchPoint &fold : folds) {
             const double turn = first_turn(fold, upward, extremum.force_scale);
-            const auto is_this = [turn](double t) { return std::abs(t / turn - 1) < same_turn; };
+            const auto is_this = [turn](double t) { return std::abs(t / turn - 1) < same_response; };
             if (is_of(turn, extremum) || std::any_of(turns.begin(), turns.end(), is_this)) {
                 force = turn;
                 return true;
@@ -272,8 +264,8 @@ class Search {
     double first_turn(const BranchPoint &fold, bool upward, double estimate) const {
         FoldOptions o;
         o.hbm = options_;
-        o.force_min = upward ? less_force * options_.force_scale : less_force * estimate;
-        o.force_max = upward ? more_force * estimate : more_force * options_.force_scale;
+        o.force_min = (upward ? options_.force_scale : estimate) / aside;
+        o.force_max = aside * (upward ? estimate : options_.force_scale);
         o.upward = upward;
         o.stop_at_turn = true;
         double turn = NAN;

@@ -3,6 +3,7 @@
 #include "hbm/make_system.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/effort_budget.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_points.hpp"
 #include "orbits/stationary_force.hpp"
@@ -18,15 +19,10 @@ namespace {
 
 // Less is hardly worth a word, and no more than what the two may be off by.
 constexpr double clearly = 0.01;
-// Flops that the search may take however little the curve did: about a tenth of a second.
-constexpr double work_anyhow = 1e9;
-// Steps of a curve that a point of a backbone takes: of exact motions the derivatives by frequency and force
-// are differences, and it turns more often.
-constexpr double steps_of_exact = 12, steps_of_harmonics = 5;
 constexpr std::int64_t least_points = 20; // fewer lead nowhere
 // Of a backbone, which only shows where the force of the curve is met again: what is met is made exact.
 constexpr double tolerance_on_the_way = 1e-6;
-constexpr std::size_t most_resonances = 2, most_curves = 2;
+constexpr std::size_t most_looked_at = 2; // resonances of the curve, and crossings of a backbone
 
 // A crossing of a backbone with the force of the curve.
 struct Crossing {
@@ -54,7 +50,7 @@ class SearchBeside {
         std::sort(starts.begin(), starts.end(),
                   [this](const BranchPoint &a, const BranchPoint &b) { return amplitude(a) > amplitude(b); });
         std::int64_t left = points_;
-        for (std::size_t i = 0; i < std::min(starts.size(), most_resonances) && left >= least_points; ++i)
+        for (std::size_t i = 0; i < std::min(starts.size(), most_looked_at) && left >= least_points; ++i)
             left -= look_beyond(starts[i], left);
     }
 
@@ -80,10 +76,10 @@ class SearchBeside {
             with_first_harmonics(*reduced_, options_).n_harmonics * options_.period_multiple;
         const double step = exact_ ? exact_step_flops(*reduced_, options_)
                                    : harmonic_step_flops(*reduced_, curve_.n_harmonics()),
-                     point = exact_ ? steps_of_exact * step
-                                    : steps_of_harmonics * harmonic_step_flops(*reduced_, h),
-                     allowed =
-                         std::max(work_anyhow, step * static_cast<double>(curve_.newton_work.iterations));
+                     of_backbone = exact_ ? step : harmonic_step_flops(*reduced_, h),
+                     point = EffortBudget::steps_of_backbone_point * of_backbone,
+                     allowed = std::max(EffortBudget::aside,
+                                        step * static_cast<double>(curve_.newton_work.iterations));
         return static_cast<std::int64_t>(std::min(allowed / point, static_cast<double>(options_.max_points)));
     }
 
@@ -93,6 +89,7 @@ class SearchBeside {
         o.hbm.max_points = points;
         o.hbm.tolerance = std::max(o.hbm.tolerance, tolerance_on_the_way);
         o.exact = exact_;
+        o.only_special = true;
         return o;
     }
 
@@ -121,10 +118,10 @@ class SearchBeside {
         std::vector<Crossing> found = crossings(resonance, start, backbone);
         std::sort(found.begin(), found.end(),
                   [](const Crossing &a, const Crossing &b) { return a.amplitude > b.amplitude; });
-        found.resize(std::min(found.size(), most_curves));
+        found.resize(std::min(found.size(), most_looked_at));
         for (const Crossing &crossing : found)
             if (is_larger(crossing.amplitude)) follow(crossing);
-        return static_cast<std::int64_t>(backbone.branch->points().size());
+        return backbone.n_passed;
     }
 
     // All but the start. A loop lies between a maximum of the force, where it merges, and the minimum beyond.

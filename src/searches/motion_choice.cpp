@@ -1,5 +1,6 @@
 #include "searches/motion_choice.hpp"
 #include "hbm/make_system.hpp"
+#include "motions/effort_budget.hpp"
 #include "orbits/orbit_cost.hpp"
 #include <algorithm>
 
@@ -7,9 +8,6 @@ namespace plm {
 namespace {
 
 constexpr std::int64_t usual_harmonics = 20; // of points near a resonance
-constexpr double cheap_step = 5e7;           // flops: a curve takes seconds
-// Of a step on the whole model: on cracked plates and cylinders, compressed to a third of their coordinates.
-constexpr double share_of_compressed = 0.2;
 
 bool permits_exact(const ReducedModel &reduced, const HbmOptions &o) {
     if (o.motion == MotionKind::harmonics) return false;
@@ -38,14 +36,15 @@ bool prefers_exact(const ReducedModel &reduced, const HbmOptions &o) {
     if (!permits_exact(reduced, o)) return false;
     return o.motion == MotionKind::exact ||
            // else there are no modes to go by
-           (has_flow(reduced) && exact_step_flops(reduced, o) <
-                                     std::max(cheap_step, harmonic_step_flops(reduced, usual_harmonics)));
+           (has_flow(reduced) &&
+            exact_step_flops(reduced, o) <
+                std::max(EffortBudget::cheap_step, harmonic_step_flops(reduced, usual_harmonics)));
 }
 
 bool prefers_exact_compressed(const ReducedModel &whole, const HbmOptions &o) {
     return prefers_exact(whole, o) ||
-           (permits_exact(whole, o) &&
-            share_of_compressed * exact_step_flops(whole, o) < harmonic_step_flops(whole, usual_harmonics));
+           (permits_exact(whole, o) && EffortBudget::step_on_compressed * exact_step_flops(whole, o) <
+                                           harmonic_step_flops(whole, usual_harmonics));
 }
 
 } // namespace plm

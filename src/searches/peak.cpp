@@ -2,6 +2,7 @@
 #include "hbm/harmonic_choice.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/error_budget.hpp"
 #include "motions/peak_search.hpp"
 #include "orbits/orbit_cost.hpp"
@@ -185,11 +186,10 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     if (is_peak) {
         // of the effort that is left: for the peak itself, then for each of what is said of it, of which the
         // estimate of the error by the basis is the last
-        const double of_peak = 0.5, of_next = 0.5;
         CloserLook look(reduced, options_, branch, around, of, watch_);
-        within(of_peak * effort_left(), [&] { look.close_in(); });
-        within(of_next * effort_left(), [&] { look.look_in_time(); });
-        const bool in_time = within(of_next * effort_left(), [&] { look.find_multipliers(); });
+        within(EffortBudget::half * effort_left(), [&] { look.close_in(); });
+        within(EffortBudget::half * effort_left(), [&] { look.look_in_time(); });
+        const bool in_time = within(EffortBudget::half * effort_left(), [&] { look.find_multipliers(); });
         const double multiplier_error = point.multiplier_error;
         point = look.point();
         point.multiplier_error = multiplier_error;
@@ -206,10 +206,10 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     }
     one->append(point);
     vector<std::complex<double>> of_structure;
-    double by_basis =
-        of_motion ? basis_error_at(made_as_, options_, *one, 0, of,
-                                   std::max(few_flops, flops_of(branch, options_)), watch_, &of_structure)
-                  : NAN;
+    double by_basis = of_motion ? basis_error_at(made_as_, options_, *one, 0, of,
+                                                 std::max(EffortBudget::aside, flops_of(branch, options_)),
+                                                 watch_, &of_structure)
+                                : NAN;
     if (std::isnan(by_basis) && of_motion && made_as_ && is_unreduced(*made_as_->reduced(), *made_as_))
         by_basis = branch.model_error;
     if (!of_structure.empty()) {

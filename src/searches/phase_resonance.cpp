@@ -12,8 +12,8 @@
 namespace plm {
 namespace {
 
-constexpr std::int32_t crossing = -1; // kind of the test function force - force_scale
-constexpr double longest_step = 0.1;  // of a backbone: extrema of the force come in close pairs
+enum : std::int32_t { crossing = -1 }; // kind of the test function force - force_scale
+constexpr double longest_step = 0.1;   // of a backbone: extrema of the force come in close pairs
 // Where a backbone ends below: upwards what is of interest begins beside the force asked for; downwards it
 // comes to nothing, or turns.
 constexpr double below_the_force = 0.5, next_to_nothing = 1e-3; // of the force asked for, of the start's
@@ -27,7 +27,8 @@ struct PhaseResonance::Followed final : public Tracer {
     Followed(const PhaseResonance &of, const BranchPoint &about, Branch &branch,
              PathParameter over = PathParameter::force)
         : Tracer("isolated branches", of.watch_, branch), options(of.options_.hbm),
-          low(2 * M_PI * options.frequency_min_hz), high(2 * M_PI * options.frequency_max_hz),
+          only_special(of.options_.only_special), low(2 * M_PI * options.frequency_min_hz),
+          high(2 * M_PI * options.frequency_max_hz),
           equations(make_equations(of.reduced_, options,
                                    of.options_.exact ? MotionsAre::exact : MotionsAre::harmonic,
                                    about.omega)),
@@ -36,13 +37,14 @@ struct PhaseResonance::Followed final : public Tracer {
 
     void run(const PathOptions &range, const PathStart &from) { follow(resonant, range, from); }
     void record(const PathPoint &p) override {
+        omega = resonant.omega_of(p.x.data());
+        passed.push_back(p.parameter);
+        if (only_special && passed.size() > 1 && p.bifurcation == bifurcation::none) return;
         if (p.bifurcation == crossing) crossings.push_back(branch_.points().size());
         BranchPoint point = resonant.solved_point({p.x, p.parameter}, p.residual, p.iterations);
         put_place(p, point);
         if (p.bifurcation == crossing) point.bifurcation = bifurcation::none;
         point.multipliers = multipliers_at(*equations, point);
-        omega = point.omega;
-        passed.push_back(p.parameter);
         branch_.append(std::move(point));
     }
     void test(const vector<double> &, double force, vector<double> &values) override {
@@ -54,6 +56,7 @@ struct PhaseResonance::Followed final : public Tracer {
     bool interrupt() override { return omega < low || omega > high; }
 
     HbmOptions options;
+    bool only_special;
     double low, high, omega = 0;
     std::unique_ptr<PeriodicEquations> equations;
     double scale;
@@ -101,7 +104,7 @@ Backbone PhaseResonance::follow(const BranchPoint &start, bool upward, double lo
     if (branch->end_reason == reason::cancelled) require_unstopped(*branch);
     if (branch->end_reason == reason::none) branch->end_reason = reason::range_end;
     branch->unknowns_used = options_.exact ? "state" : "modal";
-    return {branch, std::move(path.crossings)};
+    return {branch, std::move(path.crossings), static_cast<std::int64_t>(path.passed.size())};
 }
 
 StiffnessPath PhaseResonance::over_stiffness(const BranchPoint &peak, double factor) const {
@@ -127,7 +130,7 @@ Backbone PhaseResonance::onward(const BranchPoint &point) const {
 
 Backbone PhaseResonance::through(const BranchPoint &point) const {
     const Backbone down = follow(point, false, next_to_nothing * point.force_scale), up = upward_from(point);
-    Backbone all{joined(*down.branch, *up.branch), {}};
+    Backbone all{joined(*down.branch, *up.branch), {}, down.n_passed + up.n_passed};
     const std::size_t joint = down.branch->points().size() - 1;
     for (std::size_t i : down.crossings)
         if (i > 0) all.crossings.push_back(joint - i);

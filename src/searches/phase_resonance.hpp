@@ -11,15 +11,17 @@
 namespace plm {
 
 struct BackboneOptions {
-    HbmOptions hbm;       // n_harmonics > 0; its force_scale is the force whose crossings are wanted
-    double force_max = 0; // the backbone is followed up to this force scale; 0: 8 force_scale
-    bool exact = false;   // of exact motions: the model has P_0 = P
+    HbmOptions hbm;            // n_harmonics > 0; its force_scale is the force whose crossings are wanted
+    double force_max = 0;      // the backbone is followed up to this force scale; 0: 8 force_scale
+    bool exact = false;        // of exact motions: the model has P_0 = P
+    bool only_special = false; // of the points, where it begins, crosses the force asked for, and folds
 };
 
 struct Backbone {
     std::shared_ptr<Branch> branch; // points by increasing arc length, each with its force scale and omega;
                                     // folds (PLM_BIFURCATION_FOLD) are the extrema of the force
     vector<std::size_t> crossings;  // points of `branch` at the force scale asked for
+    std::int64_t n_passed = 0;      // points, kept or not
 };
 
 /// A resonance's peak over the stiffness of the contact.

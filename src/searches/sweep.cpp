@@ -3,6 +3,7 @@
 #include "hbm/harmonic_point.hpp"
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/error_budget.hpp"
 #include "motions/first_harmonics.hpp"
 #include "motions/free_motion.hpp"
@@ -217,7 +218,6 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
 
 std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     constexpr std::int64_t few_points = 250;
-    constexpr double several_seconds = 2e10; // flops
     SweepTask look = task;
     look.exact = false;
     look.recorder = nullptr; // made again in seconds
@@ -241,7 +241,7 @@ std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
         if (h == fewest)
             sweep();
         else
-            within(several_seconds, sweep);
+            within(EffortBudget::first_curve, sweep);
         if (h == fewest || (curve && (spans(*curve) || curve->end_reason == reason::cancelled))) break;
     }
     const bool is_own_limit = look.options.max_points < task.options.max_points;
@@ -270,11 +270,10 @@ bool says_more(const Branch &curve, const Branch &part, Watch watch) {
 }
 
 std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {
-    constexpr double share_of_exact = 0.9; // of the effort, where harmonics can have the rest
     std::shared_ptr<Branch> branch;
     const bool has_other = (task.exact && task.options.motion == MotionKind::automatic) ||
                            compresses(*task.reduced, task.options);
-    within((has_other ? share_of_exact : 1) * effort_left(), [&] { branch = sweep_either_way(task); });
+    within((has_other ? EffortBudget::most : 1) * effort_left(), [&] { branch = sweep_either_way(task); });
     if (has_other && (!branch || branch->end_reason == reason::effort)) take_harmonics(task, branch);
     if (!branch)
         throw Error(status::cancelled,

@@ -2,7 +2,7 @@
 // Liouville's theorem, and what is known of single systems.
 #include "flows.hpp"
 #include "orbits/recorded_motion.hpp"
-#include "orbits/work_gradient.hpp"
+#include "orbits/orbit_work.hpp"
 #include <chrono>
 
 using namespace test;

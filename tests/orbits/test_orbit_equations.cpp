@@ -3,6 +3,7 @@
 #include "flows.hpp"
 #include "orbits/contact_set.hpp"
 #include "orbits/orbit_equations.hpp"
+#include "orbits/orbit_work.hpp"
 #include "orbits/recorded_motion.hpp"
 #include "orbits/shooting.hpp"
 #include "paths/newton.hpp"
@@ -306,6 +307,36 @@ void modes_know_what_has_no_mass(void **) {
                 series_and_modes_agree(massless_model(kind, k_n, moving_walls()), by);
             }
 }
+// The second harmonic of the load, over two periods, by the Fourier coefficients of what a series shows.
+double error_of_work(const std::shared_ptr<const plm::FlowModel> &model) {
+    constexpr double omega = 0.7;
+    const auto n = static_cast<std::size_t>(model->size());
+    const FlowState start{plm::vector<double>(n, 0.0), plm::vector<double>(n, 0.0), 0};
+    plm::HarmonicLoad load;
+    for (std::size_t j = 0; j < n; ++j) {
+        load.real.push_back(1 + 0.3 * static_cast<double>(j));
+        load.imag.push_back(std::sin(static_cast<double>(j) + 1));
+    }
+    plm::ExactFlow flow(model, omega, 1);
+    Shown shown(false);
+    FlowState end = start;
+    flow.advance(end, 2 * flow.period(), &shown);
+    const plm::Matrix q = shown.motion.harmonics(4, 1);
+    double by_coefficient = 0;
+    for (std::int64_t j = 0; j < q.rows(); ++j)
+        by_coefficient += flow.period() * (load.real[j] * q(j, 0) - load.imag[j] * q(j, 1));
+    plm::ContactModesKept modes(model);
+    const double work =
+        plm::orbit_work(model, start, omega, 1, shown.history.intervals(), load, 2 * omega, modes);
+    return std::abs(work - by_coefficient) / std::abs(by_coefficient);
+}
+void modes_know_the_work(void **) {
+    for (Massless kind : {Massless::follow, Massless::relax, Massless::dashpot})
+        for (double k_n : {3.0, 1e2}) {
+            assert_true(below(error_of_work(massless_model(kind, k_n)), 1e-9));
+            assert_true(below(error_of_work(massless_model(kind, k_n, moving_walls())), 1e-9));
+        }
+}
 void modes_know_how_walls_move(void **) {
     for (FlowParameter by : {FlowParameter::frequency, FlowParameter::force_scale})
         for (bool grow : {false, true})
@@ -504,6 +535,7 @@ int main() {
         cmocka_unit_test(modes_give_the_motion_of_the_series),
         cmocka_unit_test(a_mode_that_hardly_moves_does_not_dictate_the_pieces),
         cmocka_unit_test(modes_know_what_has_no_mass),
+        cmocka_unit_test(modes_know_the_work),
         cmocka_unit_test(modes_know_how_walls_move),
         cmocka_unit_test(modes_know_what_is_free),
         cmocka_unit_test(crests_of_fast_motion_are_found_at_once),

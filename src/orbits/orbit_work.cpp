@@ -1,7 +1,8 @@
-// Backwards, as the adjoint: a row of the coordinates of the present contact set's modes, to which each
-// interval adds what its motions do in it.
-#include "orbits/work_gradient.hpp"
+// In the modes of each contact set, forwards; for the derivative backwards, as the adjoint: a row of the
+// coordinates of the present set's modes, to which each interval adds what its motions do in it.
+#include "orbits/orbit_work.hpp"
 #include "orbits/exponential_integrals.hpp"
+#include "orbits/modal_pieces.hpp"
 #include <cmath>
 
 namespace plm {
@@ -10,19 +11,6 @@ namespace {
 using Complex = std::complex<double>;
 
 constexpr std::int64_t make_them = 1000000; // effort: modes of every set
-
-// Integrals of cos and sin (omega (t + s)) exp(rate s) over the interval.
-struct Weights {
-    Complex cosine, sine;
-};
-Weights weights_of(Complex rate, double omega, double t, double duration) {
-    const Complex turn(0, omega), up = rate + turn, down = rate - turn;
-    const Complex ahead = std::polar(1.0, omega * t) *
-                          exponential_integral(up, duration, std::exp(up * duration)),
-                  back = std::polar(1.0, -omega * t) *
-                         exponential_integral(down, duration, std::exp(down * duration));
-    return {0.5 * (ahead + back), Complex(0, -0.5) * (ahead - back)};
-}
 
 // The row at the end of the interval becomes that at its beginning.
 void pass_back(const ContactModes &modes, const HarmonicLoad &load, double omega, double t, double duration,
@@ -33,7 +21,7 @@ void pass_back(const ContactModes &modes, const HarmonicLoad &load, double omega
     for (const ContactModes::Mode &mode : modes.modes()) {
         const auto j = static_cast<std::size_t>(mode.first);
         const Complex end = std::exp(mode.rate * duration);
-        const Weights w = weights_of(mode.rate, omega, t, duration);
+        const HarmonicIntegrals w = harmonic_integrals(mode.rate, omega, t, duration);
         if (!mode.is_pair) {
             row[j] = row[j] * end.real() + (real[j] * w.cosine - imaginary[j] * w.sine).real();
             continue;
@@ -47,6 +35,23 @@ void pass_back(const ContactModes &modes, const HarmonicLoad &load, double omega
 }
 
 } // namespace
+
+double orbit_work(const std::shared_ptr<const FlowModel> &model, FlowState state, double excitation,
+                  double force_scale, const std::vector<ContactInterval> &intervals, const HarmonicLoad &load,
+                  double omega, ContactModesKept &modes) {
+    ModalPieces motion(*model, excitation, force_scale, FlowParameter::none);
+    FlowState no_change;
+    double work = 0;
+    for (const ContactInterval &interval : intervals) {
+        auto here = modes.find(interval.states, make_them);
+        if (!here || here->free_block().rows() > 0 || !motion.enter(std::move(here), state, no_change))
+            return NAN;
+        work += motion.work(load, omega, interval.duration);
+        motion.advance(interval.duration);
+        motion.leave(state, no_change);
+    }
+    return work;
+}
 
 vector<double> work_gradient(const FlowModel &model, const std::vector<ContactInterval> &intervals,
                              const HarmonicLoad &load, double omega, ContactModesKept &modes) {
