@@ -293,7 +293,7 @@ bool CurveCompression::confirms(const Branch &curve) {
     if (!exact.motion) return false;
     if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
         compare_with_whole(curve);
-        if (change_ <= tolerance()) return true;
+        if (change_ <= ErrorBudget(options_.accuracy).compressed_before_another()) return true;
         return !grow_to(tolerance_predicted(), curve) && change_ <= options_.accuracy;
     }
     std::vector<Point> one(1);
