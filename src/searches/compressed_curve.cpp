@@ -16,8 +16,6 @@ namespace {
 constexpr std::int64_t many_coordinates = 30;
 // What is left out of the motions, in the energy norm: at first. The amplitudes that follow are nearer.
 constexpr double left_out_at_first = 1e-3;
-// How much less each time that was too much where the whole basis is at hand to compare with.
-constexpr double a_little_less = 0.6;
 // Where all pairs bounce, their motions have something of every direction, most of it too little to move an
 // amplitude: a model grows by no more than this from one to the next.
 constexpr double grows = 1.5;
@@ -258,7 +256,7 @@ bool CurveCompression::grow_to(double enough, const Branch &curve) {
     double most = static_cast<double>(model_->size());
     std::int64_t size = 0;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
-        left_out_ *= a_little_less;
+        left_out_ *= ErrorBudget::next_try;
         most = std::ceil(grows_beside_whole * most);
         const auto larger = compressed_to(most);
         if (!is_much_smaller(*larger, *whole_)) break;
