@@ -17,7 +17,7 @@ struct PathOptions {
     // small responses, as motions of several periods do from the shorter ones, which a coarse step would
     // go on along.
     bool scale_falls = false;
-    bool locate = false; // folds, branch points and changes of the owner's test functions
+    bool locate = false;        // folds, branch points and changes of the owner's test functions
     PathGuide *guide = nullptr; // a neighbouring path by which steps are longer, or null
 };
 
