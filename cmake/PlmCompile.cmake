@@ -24,6 +24,9 @@ endif()
 if(PLM_SANITIZE)
     add_compile_options(-fsanitize=${PLM_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
     add_link_options(-fsanitize=${PLM_SANITIZE})
+    if(CMAKE_CXX_COMPILER_ID STREQUAL Clang) # its runtime stands in programs, those in C included, with the part for C++
+        string(REPLACE "<CMAKE_C_COMPILER>" "<CMAKE_CXX_COMPILER>" CMAKE_C_LINK_EXECUTABLE "${CMAKE_C_LINK_EXECUTABLE}")
+    endif()
 endif()
 
 # One room of src/: an object library whose headers are included as "room/file.hpp".

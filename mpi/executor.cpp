@@ -1,4 +1,5 @@
 #include "mpi/executor.hpp"
+#include <algorithm>
 
 namespace plm::mpi {
 
@@ -52,7 +53,8 @@ CallSizes sizes_of(Operation operation, const std::int64_t *v) {
                        static_cast<int>(operation)));
 }
 
-void Executor::begin(Rows rows, const MatrixParts &parts) {
+void Executor::begin(Rows rows, MatrixParts &parts) {
+    team_.together([&] { spare_.reserve(static_cast<std::size_t>(Exchange::width)); });
     rows_ = std::move(rows);
     matrices_ = Matrices(team_, rows_, parts);
 }
@@ -103,16 +105,39 @@ double *Executor::columns(std::int64_t number, std::int64_t first, std::int64_t 
                     format("columns %lld to %lld of block %lld do not exist; please report this",
                            static_cast<long long>(first), static_cast<long long>(first + count),
                            static_cast<long long>(number)));
-    return found->second.data.data() + first * n();
+    return found->second.data.get() + first * n();
 }
 
 double *Executor::written(std::int64_t number, std::int64_t first, std::int64_t count) {
     Block &block = blocks_[number];
-    if (first + count > block.cols) {
-        block.data.resize(static_cast<std::size_t>((first + count) * n()));
-        block.cols = first + count;
-    }
+    const std::int64_t cols = std::max(block.cols, first + count);
+    if (cols > block.room) extend(block, cols);
+    if (first > block.cols) std::fill_n(block.data.get() + block.cols * n(), (first - block.cols) * n(), 0.0);
+    block.cols = cols;
     return columns(number, first, count);
+}
+
+/// Large memory grows where it stands, or its pages move: realloc copies nothing then.
+void Executor::extend(Block &block, std::int64_t cols) {
+    const auto fits = std::find_if(spare_.begin(), spare_.end(),
+                                   [&](const Block &b) { return b.room >= cols && b.room <= 2 * cols; });
+    if (block.room == 0 && fits != spare_.end()) {
+        block = std::move(*fits);
+        spare_.erase(fits);
+        return;
+    }
+    const auto bytes = static_cast<std::size_t>(std::max<std::int64_t>(1, cols * n())) * sizeof(double);
+    auto *data = static_cast<double *>(std::realloc(block.data.get(), bytes));
+    if (!data) throw std::bad_alloc();
+    static_cast<void>(block.data.release());
+    block.data.reset(data), block.room = cols;
+}
+
+/// Keeps no more than a block of right-hand sides has.
+void Executor::give_up(Block block) {
+    std::int64_t room = block.room;
+    for (const Block &b : spare_) room += b.room;
+    if (block.room > 0 && room <= Exchange::width) spare_.push_back(std::move(block));
 }
 
 MumpsFactor &Executor::factor(std::int64_t number) {
@@ -127,11 +152,15 @@ void Executor::end() {
     for (auto &entry : factors_) entry.second->release();
     factors_.clear();
     blocks_.clear();
+    spare_.clear();
 }
 
 void Executor::free(const Call &call) {
     for (std::int64_t k = 1; k <= call.number[0]; ++k) {
-        blocks_.erase(call.number[k]);
+        if (const auto block = blocks_.find(call.number[k]); block != blocks_.end()) {
+            give_up(std::move(block->second));
+            blocks_.erase(block);
+        }
         const auto found = factors_.find(call.number[k]);
         if (found == factors_.end()) continue;
         found->second->release();

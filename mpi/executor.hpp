@@ -2,6 +2,7 @@
 // is small comes from the brain and goes back to it.
 #pragma once
 #include "mpi/mumps_factor.hpp"
+#include <cstdlib>
 #include <map>
 #include <memory>
 
@@ -52,7 +53,7 @@ class Executor {
     Executor(const Executor &) = delete;
     Executor &operator=(const Executor &) = delete;
     /// Collective, before all else.
-    void begin(Rows rows, const MatrixParts &parts);
+    void begin(Rows rows, MatrixParts &parts);
     /// Collective; throws on all ranks alike.
     void run(const Call &call);
     /// Collective: gives up all blocks and factors.
@@ -60,14 +61,19 @@ class Executor {
     const Rows &rows() const { return rows_; }
 
   private:
+    struct Released {
+        void operator()(double *p) const { std::free(p); }
+    };
     struct Block {
-        std::int64_t cols = 0;
-        std::vector<double> data;
+        std::int64_t cols = 0, room = 0; // columns, and for how many there is memory
+        std::unique_ptr<double, Released> data;
     };
     /// Columns of a block; throws where they do not exist.
     double *columns(std::int64_t number, std::int64_t first, std::int64_t count);
     /// The same to be written, made or made longer where need be.
     double *written(std::int64_t number, std::int64_t first, std::int64_t count);
+    void extend(Block &block, std::int64_t cols);
+    void give_up(Block block);
     MumpsFactor &factor(std::int64_t number);
     std::int64_t n() const { return rows_.count(); }
     bool fixed(std::int64_t row) const { return matrices_.fixed(row); }
@@ -96,6 +102,8 @@ class Executor {
     Matrices matrices_;
     KeptOrder order_;
     std::map<std::int64_t, Block> blocks_;
+    std::vector<Block>
+        spare_; // memory of blocks given up, for the next ones: new memory costs more than a copy
     std::map<std::int64_t, std::unique_ptr<MumpsFactor>> factors_;
 };
 

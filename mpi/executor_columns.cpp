@@ -71,10 +71,15 @@ void Executor::fill(const Call &call) {
 void Executor::copy(const Call &call) {
     const std::int64_t *v = call.number;
     team_.together([&] {
-        std::vector<double> from(static_cast<std::size_t>(v[3] * n())); // x may be y
+        std::vector<double> kept; // where x is y a column may be written before it is read
+        if (v[0] == v[2]) kept.reserve(static_cast<std::size_t>(v[3] * n()));
+        for (std::int64_t k = 0; k < v[3]; ++k) {
+            const double *from = columns(v[2], v[4 + k], 1);
+            if (v[0] == v[2]) kept.insert(kept.end(), from, from + n());
+        }
+        double *to = written(v[0], v[1], v[3]);
         for (std::int64_t k = 0; k < v[3]; ++k)
-            std::copy_n(columns(v[2], v[4 + k], 1), n(), from.data() + k * n());
-        std::copy(from.begin(), from.end(), written(v[0], v[1], v[3]));
+            std::copy_n(v[0] == v[2] ? kept.data() + k * n() : columns(v[2], v[4 + k], 1), n(), to + k * n());
     });
 }
 
@@ -82,7 +87,7 @@ void Executor::combine(const Call &call) {
     const std::int64_t *v = call.number;
     const Combination c{n(), v[2], v[5], call.factor[0], call.factor[1], call.in};
     team_.together([&] {
-        double *x = written(v[0], v[1], v[2]);
+        double *x = c.beta != 0 ? columns(v[0], v[1], v[2]) : written(v[0], v[1], v[2]);
         if (v[5] == 0) {
             for (std::int64_t i = 0; i < v[2] * n(); ++i) x[i] = c.beta != 0 ? c.beta * x[i] : 0;
             return;

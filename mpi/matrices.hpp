@@ -1,5 +1,6 @@
 // M, K and C by rows: each rank has those it owns, summed over all that the ranks assembled.
 #pragma once
+#include "mpi/entries.hpp"
 #include "mpi/exchange.hpp"
 #include <array>
 #include <cmath>
@@ -11,16 +12,9 @@ struct Weights {
     double m = 0, k = 0, c = 0;
 };
 
-/// Part of an entry in the lower triangle, as one rank assembled it. Where a host gives both triangles each
-/// half counts half, and `skew` holds half their difference, which must sum up to nothing.
-struct Entry {
-    std::int64_t row, col;
-    double value, skew;
-};
-
 /// What the ranks handed over: entries of M, K, C; supports, perhaps of DOFs of other ranks.
 struct MatrixParts {
-    std::array<std::vector<Entry>, 3> entries;
+    std::array<EntryList, 3> entries;
     std::vector<std::int64_t> fixed;
     bool has_damping = false;
 };
@@ -43,8 +37,8 @@ struct Exact {
 class Matrices {
   public:
     Matrices() = default;
-    /// Collective.
-    Matrices(Team &team, const Rows &rows, const MatrixParts &parts);
+    /// Collective. Takes the entries out of the parts.
+    Matrices(Team &team, const Rows &rows, MatrixParts &parts);
 
     std::int64_t rows() const { return static_cast<std::int64_t>(fixed_.size()); }
     /// A support: the row and column are empty, and every tall column is zero there.
@@ -79,15 +73,17 @@ class Matrices {
                   std::int64_t ld_x, std::int64_t ld_y, const double *lambda, double *squares);
 
   private:
-    struct Element {
-        std::int64_t row, col;
-        double value[3], skew[3];
-    };
-    std::vector<Element> gather(Team &team, const Rows &rows, const MatrixParts &parts);
-    void require_symmetric(Team &team, const std::vector<Element> &elements) const;
+    /// Of M, K, C: the lower triangle's entries in rows or columns of this rank.
+    using Lists = std::array<std::vector<Entry>, 3>;
+    void require_symmetric(Team &team, const Lists &lists) const;
     void take_supports(Team &team, const Rows &rows, const std::vector<std::int64_t> &fixed);
-    void find_ghosts(Team &team, const Rows &rows, const std::vector<Element> &elements);
-    void store(const Rows &rows, const std::vector<Element> &elements);
+    void find_ghosts(Team &team, const Rows &rows, const Lists &lists);
+    void store(const Rows &rows, const Lists &lists);
+
+    static constexpr int abreast = 8; // columns that one pass over the matrix multiplies
+    template <int width, class Value>
+    std::int64_t multiply(Value value, std::int64_t first, std::int64_t cols, const double *y,
+                          std::int64_t ld_y, double *x, std::int64_t ld_x);
 
     double entry(std::size_t p, const Weights &w) const {
         return w.m * value_[0][p] + w.k * value_[1][p] + (w.c != 0 ? w.c * value_[2][p] : 0);
@@ -106,9 +102,10 @@ class Matrices {
     std::vector<char> fixed_;
     std::vector<std::int64_t> ghosts_; // DOFs of other ranks that rows here refer to, ascending
     std::vector<double> ghost_;        // their values, Exchange::width columns
+    std::vector<double> abreast_;      // entries of own rows and ghosts, side by side
     Exchange halo_;
     std::vector<std::size_t> start_;
-    std::vector<std::int64_t> column_; // local row, or rows() + place among the ghosts
+    std::vector<std::int32_t> column_; // local row, or rows() + place among the ghosts
     std::array<std::vector<double>, 3> value_;
 };
 

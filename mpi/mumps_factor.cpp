@@ -53,9 +53,6 @@ void MumpsFactor::release() {
 /// The lower triangle of this rank's rows. DOFs that are held keep a diagonal entry alone, of a usual size.
 void MumpsFactor::take_entries(Team &team, const Rows &rows, const Matrices &matrices,
                                const FactorTask &task) {
-    if (rows.n_dof() >= INT32_MAX)
-        throw Error(status::memory,
-                    "this MUMPS has 32-bit integers: the structure must have fewer than 2147483647 DOFs");
     held_.assign(static_cast<std::size_t>(rows.count()), 0);
     for (std::int64_t i = 0; i < rows.count(); ++i) held_[static_cast<std::size_t>(i)] = matrices.fixed(i);
     std::vector<std::int64_t> held(task.held, task.held + task.n_held);

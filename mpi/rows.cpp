@@ -22,7 +22,12 @@ Rows::Rows(Team &team, std::int64_t n_dof, const std::vector<std::int64_t> &owne
         directory_.assign(static_cast<std::size_t>(std::min(part_, n_dof - first_)), -1);
         owned_ = owned;
         std::sort(owned_.begin(), owned_.end());
-        for (std::int64_t dof : owned_) to.push_back(keeper(dof));
+        for (std::int64_t dof : owned_) {
+            to.push_back(keeper(dof));
+            if (runs_.empty() || dof != runs_.back().first + runs_.back().length)
+                runs_.push_back({dof, static_cast<std::int64_t>(to.size()) - 1, 0});
+            ++runs_.back().length;
+        }
     });
     const std::vector<std::int64_t> told = deliver(team, owned_, to, &from);
     team.together([&] {
@@ -43,8 +48,12 @@ Rows::Rows(Team &team, std::int64_t n_dof, const std::vector<std::int64_t> &owne
 }
 
 std::int64_t Rows::local(std::int64_t dof) const {
-    const auto place = std::lower_bound(owned_.begin(), owned_.end(), dof);
-    return place != owned_.end() && *place == dof ? place - owned_.begin() : -1;
+    auto run = std::upper_bound(runs_.begin(), runs_.end(), dof,
+                                [](std::int64_t d, const Run &r) { return d < r.first; });
+    if (run == runs_.begin()) return -1;
+    --run;
+    const std::int64_t offset = dof - run->first;
+    return offset < run->length ? run->place + offset : -1;
 }
 
 std::vector<int> Rows::owners_of(Team &team, const std::vector<std::int64_t> &dofs) const {

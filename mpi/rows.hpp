@@ -25,7 +25,11 @@ class Rows {
     int keeper(std::int64_t dof) const { return static_cast<int>(dof / part_); }
 
     std::int64_t n_dof_ = 0, part_ = 1, first_ = 0; // this rank's part of the directory begins at first_
+    struct Run {                                    // DOFs of this rank without a gap between them
+        std::int64_t first, place, length;
+    };
     std::vector<std::int64_t> owned_;
+    std::vector<Run> runs_; // ascending
     std::vector<int> directory_;
 };
 

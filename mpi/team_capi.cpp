@@ -79,8 +79,10 @@ Entry entry_at(const Service &s, std::int32_t part, std::int32_t base, std::int6
     if ((part == PLM_LOWER && i < j) || (part == PLM_UPPER && i > j))
         bad("row", k,
             format("entry %lld stands in the other triangle than `part` says", static_cast<long long>(k)));
-    if (part != PLM_FULL || i == j) return {std::max(i, j), std::min(i, j), v, 0};
-    return {std::max(i, j), std::min(i, j), v / 2, i > j ? v / 2 : -v / 2};
+    const auto lower = static_cast<std::int32_t>(std::max(i, j)),
+               left = static_cast<std::int32_t>(std::min(i, j));
+    if (part != PLM_FULL || i == j) return {lower, left, v, 0};
+    return {lower, left, v / 2, i > j ? v / 2 : -v / 2};
 }
 
 /// The brain's callback of plm_model_set_tall_operations. `user` is a handle: the model may outlive the team.
@@ -143,6 +145,10 @@ plm_status plm_team_create(std::int32_t fortran_communicator, std::int64_t n_dof
             if (n_dof < 1)
                 bad("n_dof", -1,
                     format("n_dof is %lld; it must be at least 1", static_cast<long long>(n_dof)));
+            if (n_dof >= INT32_MAX)
+                bad("n_dof", -1,
+                    format("n_dof is %lld; MUMPS has 32-bit integers: it must be less than 2147483647",
+                           static_cast<long long>(n_dof)));
             made = std::make_shared<Handle>();
             number = enter(made);
         } catch (...) {
@@ -199,8 +205,11 @@ plm_status plm_team_add_entries_i64(plm_team *team, std::int32_t which, std::int
             bad("part", -1, format("part is %d; it must be PLM_FULL, PLM_LOWER or PLM_UPPER", part));
         require("row", row, n), require("column", column, n), require("value", value, n),
             require_base(index_base);
-        append(s.parts.matrices.entries[static_cast<std::size_t>(which - PLM_MASS)], n,
-               [&](std::int64_t k) { return entry_at(s, part, index_base, k, row, column, value); });
+        EntryList &entries = s.parts.matrices.entries[static_cast<std::size_t>(which - PLM_MASS)];
+        for (std::int64_t k = 0; k < n; ++k) {
+            const Entry e = entry_at(s, part, index_base, k, row, column, value);
+            if (e.value != 0 || e.skew != 0) entries.add(e);
+        }
         s.parts.matrices.has_damping |= which == PLM_DAMPING;
     });
 }

@@ -1,9 +1,9 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       preset dev with half a minute of each fuzzer, of asan the C API and hosts with half a minute of
-#                                 scenarios drawn by chance, and of tsan, permissive and release what differs there from dev
-#                                 (all of one, or asserting and libcxx: name it)
+#     sh tests/run.sh --all       preset dev, of asan the C API and hosts with half a minute of each fuzzer and of scenarios drawn
+#                                 by chance, and of tsan, permissive and release what differs there from dev (all of one, or
+#                                 asserting and libcxx: name it). dev is compiled as release is, so that the three share objects
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
 # Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
 set -u
@@ -11,10 +11,10 @@ root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 cd "$root" || exit 1
 . cmake/packages.sh
 
-fuzz_longer=
+all=
 case ${1-} in
 -h | --help) sed -n '2,8s/^# //p' tests/run.sh; exit 0 ;;
---all) set -- dev asan tsan permissive release; fuzz_longer=dev ;;
+--all) set -- dev asan tsan permissive release; all=yes ;;
 -*) echo "run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
 '') set -- dev ;;
 esac
@@ -54,7 +54,7 @@ programs=
 tests=
 choose() {
     programs= tests=
-    [ -n "$fuzz_longer" ] || return 0
+    [ -n "$all" ] || return 0
     case $1 in
     asan) # hosts and the whole C API, which reaches every room
         programs='plm plm_static tests/capi/all tests/host/all'
@@ -75,14 +75,18 @@ choose() {
 
 for preset; do
     choose "$preset"
-    if [ -n "$fuzz_longer" ]; then
+    options=
+    if [ -n "$all" ]; then
+        options=-DPLM_UNITY=ON # several files at once where all is built from nothing
         PLM_FUZZ_SECONDS=5 PLM_SCENARIO_SECONDS=10
-        [ "$preset" = "$fuzz_longer" ] && PLM_FUZZ_SECONDS=30
-        [ "$preset" = asan ] && PLM_SCENARIO_SECONDS=30
+        case $preset in
+        dev) options="$options -DCMAKE_BUILD_TYPE=Release" ;;
+        asan) PLM_FUZZ_SECONDS=30 PLM_SCENARIO_SECONDS=30 ;;
+        esac
         export PLM_FUZZ_SECONDS PLM_SCENARIO_SECONDS
     fi
-    # several files at once where all is built from nothing
-    stage "$preset: configure" cmake --preset "$preset" ${fuzz_longer:+-DPLM_UNITY=ON} &&
+    # shellcheck disable=SC2086
+    stage "$preset: configure" cmake --preset "$preset" $options &&
         stage "$preset: build" cmake --build --preset "$preset" --parallel $jobs ${programs:+--target $programs} &&
         stage "$preset: test" ctest --preset "$preset" --parallel $jobs --no-tests=error ${tests:+-R "$tests"}
 done

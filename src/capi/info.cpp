@@ -1,6 +1,7 @@
 // What can be asked without a context: version, status texts, the key table.
 #include "capi/barrier.hpp"
 #include "capi/keys.hpp"
+#include "linalg/blas_host.hpp"
 #include "linalg/dft.hpp"
 #include "orbits/make_transient.hpp"
 #include "orbits/transient.hpp"
@@ -97,14 +98,16 @@ plm_status plm_version(std::int32_t *major, std::int32_t *minor, std::int32_t *p
 plm_status plm_build_info(std::int64_t capacity, char *buffer, std::int64_t *needed) {
     return call_free([&] {
         const std::string factorization = factor_backends(), transform = dft_backend();
+        const char *kernels = own_blas_kernels();
         const bool cholmod = factorization.find("CHOLMOD") != std::string::npos,
                    fftw = transform.find("FFTW") != std::string::npos;
         return put_text(
             format(
                 "libplm %d.%d.%d; factorization: %s; eigensolver: ARPACK and Lanczos; Fourier transform: %s; "
-                "components: model, sampler, basis, hbm%s%s; licence: %s%s%s%s",
+                "BLAS: %s%s%s; components: model, sampler, basis, hbm%s%s; licence: %s%s%s%s",
                 PLM_VERSION_MAJOR, PLM_VERSION_MINOR, PLM_VERSION_PATCH, factorization.c_str(),
-                transform.c_str(), transient_is_built() ? ", transient" : "",
+                transform.c_str(), kernels ? "its own OpenBLAS (" : "the host's", kernels ? kernels : "",
+                kernels ? ")" : "", transient_is_built() ? ", transient" : "",
                 study_is_built() ? ", study" : "",
                 cholmod || fftw ? "GPL 2 or later as a whole, for " : "BSD 3-clause, see NOTICE",
                 cholmod ? "CHOLMOD" : "", cholmod && fftw ? " and " : "", fftw ? "FFTW" : ""),

@@ -30,8 +30,8 @@ class EventForce final : public ContactForce {
             out.state[i] = n > 0 ? PairState::switching : closed ? PairState::closed : PairState::open;
             out.n_switching += n > 0;
             // There are as many of opening as of closing.
-            for (const TrigInstant *t = zeros_.of(i), *end = t + n; t + 1 < end; t += 2)
-                spans_.push_back({i, closed, n == 2, t});
+            for (std::int64_t k = 0; k + 1 < n; k += 2)
+                spans_.push_back({i, closed, n == 2, zeros_.of(i) + k});
         }
         const std::int64_t n = static_cast<std::int64_t>(spans_.size());
         for (std::int64_t k = 0; k < n; k += n_lanes) add_spans(k, out.averages);

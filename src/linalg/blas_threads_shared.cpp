@@ -4,5 +4,8 @@
 namespace plm {
 
 void keep_own_blas_to_one_thread() {}
+const char *own_blas_kernels() {
+    return nullptr;
+}
 
 } // namespace plm

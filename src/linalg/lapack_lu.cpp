@@ -23,7 +23,7 @@ bool factor_panels(Matrix &lu, vector<int> &pivots) {
                                : all < piece_of_work             ? size
                                                                  : 128,
                        strip = std::max<std::int64_t>(
-                           1, static_cast<std::int64_t>(piece_of_work / (256.0 * n_real)));
+                           1, static_cast<std::int64_t>(piece_of_work / (256.0 * std::max(1.0, n_real))));
     const blas_int lda = leading(size), one = 1;
     const double plus = 1, minus = -1;
     bool regular = true;

@@ -73,6 +73,14 @@ SpaceVectors read_formed(ByteReader &bytes, const Model &model, std::int64_t col
     return SpaceVectors(read_field(bytes, model.n_free(), cols));
 }
 
+SpaceVectors formed_beside(const Model &model, const SpaceVectors &vectors) {
+    const Field &all = vectors.formed();
+    Field here = model.zeros(0);
+    here.reserve(all.cols());
+    for (std::int64_t j = 0; j < all.cols(); ++j) here.append(here.from(all.column(j)));
+    return SpaceVectors(std::move(here));
+}
+
 void Space::write(ByteWriter &bytes) const {
     pass_space(bytes, *this);
     bytes(vectors.row(first_dof(*model)));

@@ -66,5 +66,7 @@ template <class Bytes, class C> void pass_contact(Bytes &bytes, C &contact) {
 /// All columns, which are formed for it: n_free x cols(); read as vectors that are there.
 void write_formed(ByteWriter &bytes, const SpaceVectors &vectors);
 SpaceVectors read_formed(ByteReader &bytes, const Model &model, std::int64_t cols);
+/// The same vectors, all of them, where those of another model of this structure lie: its host may keep them.
+SpaceVectors formed_beside(const Model &model, const SpaceVectors &vectors);
 
 } // namespace plm

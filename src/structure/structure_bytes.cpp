@@ -3,6 +3,7 @@
 #include "linalg/bytes.hpp"
 #include "structure/field_bytes.hpp"
 #include "structure/structure.hpp"
+#include <cmath>
 #include <utility>
 
 namespace plm {
@@ -256,6 +257,18 @@ void Structure::throw_without_matrices() {
         .argument("basis");
 }
 
+namespace {
+
+/// The first seven: a host whose parts are summed in another order (another number of ranks) tells others
+/// behind them of the same model.
+double leading_digits(double x) {
+    int power = 0;
+    const double mantissa = std::frexp(x, &power);
+    return std::ldexp(std::round(std::ldexp(mantissa, 24)), power - 24);
+}
+
+} // namespace
+
 // Of what moves: supports and constraints are in the matrices on the free DOFs and in their numbers.
 std::uint64_t Structure::fingerprint_of_parts() const {
     const vector<std::int64_t> &dofs = parts_->dofs.free_dofs();
@@ -268,7 +281,8 @@ std::uint64_t Structure::fingerprint_of_parts() const {
     if (!parts_->in_core) { // what the host told of its matrices
         const TallFacts f = parts_->tall->facts();
         const double told[] = {static_cast<double>(f.n_dof), static_cast<double>(f.n_massive),
-                               f.trace_of_mass, f.trace_of_stiffness, f.least_stiffness};
+                               leading_digits(f.trace_of_mass), leading_digits(f.trace_of_stiffness),
+                               leading_digits(f.least_stiffness)};
         crc = crc64(told, sizeof told, crc);
     }
     return crc == 0 ? 1 : crc;

@@ -19,6 +19,20 @@ int refused(plm_context *ctx, plm_status got, plm_status want, const char *funct
     return ok;
 }
 
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define __SANITIZE_ADDRESS__ 1 /* as gcc says it */
+#endif
+#endif
+
+int next_case(int watched) {
+#ifdef __SANITIZE_ADDRESS__
+    return watched;
+#else
+    return (void)watched, 1;
+#endif
+}
+
 int close_to(double got, double want, double relative) {
     const int ok = fabs(got - want) <= relative * fabs(want);
     if (!ok) printf("    got %.17g, want %.17g (relative tolerance %g)\n", got, want, relative);

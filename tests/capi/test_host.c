@@ -355,7 +355,7 @@ static void a_failure_of_the_solver_is_never_taken_for_an_answer(void **state) {
     plm_context_set_solver(ctx, dense_factor, dense_solve, dense_free, &s);
     assert_true(one_call(ctx, &s, 0, 0, &amplitude) >= 0);
     factors = s.factors, solves = s.solves;
-    for (k = 1; k <= factors + solves; ++k) {
+    for (k = 1; k <= factors + solves; k += next_case(7)) {
         const plm_status got = one_call(ctx, &s, k <= factors ? k : 0, k > factors ? k - factors : 0, &again);
         plm_context_get_error_info(ctx, NULL, NULL, NULL, &code);
         if (got != PLM_ERR_CALLBACK || code != 42)

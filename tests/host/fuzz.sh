@@ -6,7 +6,7 @@ set -eu
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 clang=$1 include=$2 library=$3 folder=$4 seconds=${PLM_FUZZ_SECONDS:-$5} program=$6 longest=$7 formats=${8:-}
 mkdir -p "$folder/corpus"
-"$clang" -g -O1 -fsanitize=fuzzer,address,undefined -I"$include" -DPLM_FORMATS="\"$formats\"" "$here/$program.c" "$library" \
+"$clang" -g -O1 -fsanitize=fuzzer,address,undefined -fsanitize-link-c++-runtime -I"$include" -DPLM_FORMATS="\"$formats\"" "$here/$program.c" "$library" \
     -Wl,-rpath,"$(dirname "$library")" -o "$folder/fuzz"
 cd "$folder"
 set -- corpus

@@ -57,8 +57,9 @@ struct Grid {
             if (owner(number + 7, size) != rank) return;
             element(number, i, j, [&](int which, std::int64_t row, std::int64_t col, double v) {
                 const double skew = row == col ? 0 : row > col ? v / 2 : -v / 2;
-                p.matrices.entries[static_cast<std::size_t>(which)].push_back(
-                    {std::max(row, col), std::min(row, col), row == col ? v : v / 2, skew});
+                p.matrices.entries[static_cast<std::size_t>(which)].add(
+                    {static_cast<std::int32_t>(std::max(row, col)),
+                     static_cast<std::int32_t>(std::min(row, col)), row == col ? v : v / 2, skew});
             });
         });
         if (rank == size - 1) p.matrices.fixed = fixed();

@@ -88,9 +88,8 @@ Verdict life(const Grid &grid, int rank, int size, int faulty) {
         s.start(MPI_COMM_WORLD, grid.n(), {});
         try {
             s.parts = grid.parts(rank, size);
-            auto &entries = s.parts.matrices.entries[1];
-            for (auto &e : entries) // all: those of supports are of no account
-                if (rank == faulty && kind == Kind::nan) e.value = NAN;
+            for (std::int32_t k = 0; rank == faulty && kind == Kind::nan && k < grid.n(); ++k)
+                s.parts.matrices.entries[1].add({k, k, NAN, 0}); // all: those of supports are of no account
         } catch (...) {
             s.remember(Team::describe_failure());
         }

@@ -29,7 +29,8 @@ struct Builder {
     std::int64_t n;
     Parts p;
     void add(std::int64_t i, std::int64_t j, double v) {
-        p.matrices.entries[1].push_back({std::max(i, j), std::min(i, j), v, 0});
+        p.matrices.entries[1].add(
+            {static_cast<std::int32_t>(std::max(i, j)), static_cast<std::int32_t>(std::min(i, j)), v, 0});
     }
     /// Entry (i, j) of D, i >= j, of a branch; what it brings to each block of K.
     void spread(std::int64_t branch, std::int64_t i, std::int64_t j, double v) {
@@ -52,7 +53,7 @@ Parts slice(std::int64_t n, int rank, int size) {
         if (i * size / all != rank) continue;
         b.p.owned.push_back(i);
         if (i < n) {
-            b.p.matrices.entries[0].push_back({i, i, 1, 0});
+            b.p.matrices.entries[0].add({static_cast<std::int32_t>(i), static_cast<std::int32_t>(i), 1, 0});
             for (std::int64_t j = 0; j <= i; ++j) b.add(i, j, full_entry(n, i, j));
         } else {
             const std::int64_t branch = (i - n) / (side * side), node = (i - n) % (side * side);

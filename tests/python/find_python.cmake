@@ -19,7 +19,11 @@ set(PLM_PYTHON_ENVIRONMENT PLM_LIBRARY=$<TARGET_FILE:plm> PYTHONPATH=${PROJECT_S
 if(PLM_SANITIZE)
     # The interpreter is not built with the sanitizers, so they are loaded before it, and with them the C++ library, whose
     # throw they wrap. Python and NumPy keep memory until the end: no search for leaks.
-    foreach(library libasan.so libstdc++.so.6)
+    set(runtime libasan.so)
+    if(CMAKE_CXX_COMPILER_ID STREQUAL Clang)
+        set(runtime libclang_rt.asan-${CMAKE_SYSTEM_PROCESSOR}.so)
+    endif()
+    foreach(library ${runtime} libstdc++.so.6)
         execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${library} OUTPUT_VARIABLE found
                         OUTPUT_STRIP_TRAILING_WHITESPACE)
         list(APPEND preload ${found})

@@ -272,15 +272,16 @@ class Couplings(unittest.TestCase):
         stands at it would couple 1,323 DOFs, and by way of sums over few nodes couples few."""
         mass, stiffness, xyz, number = block((20, 20, 2), (0, 0, 0), (20, 20, 2))
         n, top = len(mass), number[:, :, -1].ravel()
+        mass, stiffness = scipy.sparse.csc_matrix(mass), scipy.sparse.csc_matrix(stiffness)
         rows = numpy.zeros((6, n + 6))
         G = fit(xyz[top], numpy.array([9, 12, 4]), numpy.ones(len(top)))
         rows[:, (3 * top[:, None] + numpy.arange(3)).ravel()] = -G
         rows[:, n:] = numpy.eye(6)
         springs = numpy.diag([30, 40, 50, 900, 800, 700])
         for own, held, shift in ((springs, False, 0), (springs, True, 0), (0 * springs, False, 0.01)):
-            M = scipy.linalg.block_diag(mass, numpy.diag([200, 200, 200, 5e3, 6e3, 7e3]))
-            K = scipy.linalg.block_diag(stiffness, own)
-            model = plm.Model(scipy.sparse.csc_matrix(M), scipy.sparse.csc_matrix(K))
+            M = scipy.sparse.block_diag([mass, numpy.diag([200, 200, 200, 5e3, 6e3, 7e3])], "csc")
+            K = scipy.sparse.block_diag([stiffness, own], "csc")
+            model = plm.Model(M, K)
             model.add_distributing_coupling(numpy.arange(n, n + 6), [9, 12, 4], numpy.arange(n).reshape(-1, 3)[top], xyz[top])
             kept = slice(0, n if held else n + 6)
             if held:

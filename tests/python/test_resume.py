@@ -64,10 +64,10 @@ def cancelled(basis, options, after):
     return None
 
 
-def n_calls(basis, options):
+def counted(basis, options):
+    """The whole curve, and how often its progress callback was called."""
     calls = []
-    quietly(plm.Hbm(basis, **options).sweep, progress=lambda stage, fraction: calls.append(stage))
-    return len(calls)
+    return quietly(plm.Hbm(basis, **options).sweep, progress=lambda stage, fraction: calls.append(stage)), len(calls)
 
 
 def resume_elsewhere(job):
@@ -83,8 +83,7 @@ class Resumed(unittest.TestCase):
         chance = random.Random(48)
         for name, (make, options) in CASES.items():
             basis = make()
-            whole = quietly(plm.Hbm(basis, **options).sweep)
-            n, resumed = n_calls(basis, options), 0
+            (whole, n), resumed = counted(basis, options), 0
             for _ in range(12):
                 after = chance.randint(n // 4, n)  # before and after the curve there is none to go on with
                 part = cancelled(basis, options, after)
@@ -186,7 +185,7 @@ class Saved(unittest.TestCase):
         hbm.save_every(0)
         n = [len(plm.Branch.from_bytes(basis, data)) for data in versions]
         second = next(i for i in range(1, len(n)) if n[i] < n[i - 1])  # where the next model's curve begins
-        part = cancelled(basis, {}, n_calls(basis, {}) * 3 // 4)
+        part = cancelled(basis, {}, counted(basis, {})[1] * 3 // 4)
         self.assertEqual(part.status, plm.CANCELLED)
         parts = [versions[second // 2], versions[-2], part.to_bytes()]
         with multiprocessing.get_context("spawn").Pool(1) as pool:  # from bytes alone

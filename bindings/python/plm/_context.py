@@ -346,7 +346,7 @@ def version():
 
 
 def build_info():
-    """One line: version, factorization, eigensolver, Fourier transform, components built in, licence of the whole."""
+    """One line: version, factorization, eigensolver, Fourier transform, BLAS, components built in, licence of the whole."""
     return _c.text_of(_c.lib.plm_build_info)
 
 

@@ -25,7 +25,8 @@ def _to_stderr(text):
 _WORDS = (("raise the effort of the context", "raise --effort (0: no limit)"),
           (r"spent before there was a result; raise effort", "spent before there was a result; raise --effort (0: no limit)"),
           (r"window_min_hz and window_max_hz of a sampler|\(frequency_min_hz, frequency_max_hz\)",
-           "--frequency-min-hz and --frequency-max-hz"))
+           "--frequency-min-hz and --frequency-max-hz"),
+          ("were not looked for: find_isolated and find_by_marching do", "were not looked for; without a range and --save-every they are"))
 
 
 def in_words_of_the_command(text):

@@ -136,7 +136,7 @@ PLM_API plm_status plm_status_text(plm_status status, int64_t capacity, char *bu
 
 PLM_API plm_status plm_version(int32_t *major, int32_t *minor, int32_t *patch);
 
-/* One line: version, factorization, eigensolver, Fourier transform, components built in, licence of the whole. */
+/* One line: version, factorization, eigensolver, Fourier transform, BLAS, components built in, licence of the whole. */
 PLM_API plm_status plm_build_info(int64_t capacity, char *buffer, int64_t *needed);
 
 /* ---- Options and results by key ------------------------------------------------------------------------------
