@@ -882,10 +882,12 @@ PLM_API plm_status plm_hbm_save_every(plm_hbm *hbm, int64_t n_points, const char
 PLM_API plm_status plm_hbm_resume(plm_hbm *hbm, plm_branch *branch, plm_branch **resumed);
 /* The same at several levels of the excitation, force_scale[n] in place of the option "force_scale", in any order. count:
  * curves found, read by plm_hbm_get_found in the order of their levels; each says its "force_scale", its warnings and how it
- * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, and where many
- * pairs open and close the others go on from the coordinates that its motions needed, checked at each level as in a sweep
- * of it alone: less work than as many sweeps. PLM_NOT_CONVERGED or PLM_TRUNCATED, with the level in the words, where a
- * curve ended early or a level (without a curve then) has no first motion; PLM_CANCELLED with those found before. */
+ * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, each of the others
+ * along the one before it, checked as in a sweep of it alone: where that shows the way its steps are up to three times as
+ * long as "max_step", so that it has fewer points, and where many pairs open and close it goes on from the coordinates that
+ * the motions before it needed. Less work than as many sweeps. PLM_NOT_CONVERGED or PLM_TRUNCATED, with the level in the
+ * words, where a curve ended early or a level (without a curve then) has no first motion; PLM_CANCELLED with those found
+ * before. */
 PLM_API plm_status plm_hbm_sweep_levels(plm_hbm *hbm, int64_t n, const double *force_scale, int64_t *count);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */

@@ -82,7 +82,7 @@ class LevelSweep {
     std::int64_t n_;
     const double *force_scale_;
     std::vector<BranchPtr> curves_;
-    std::shared_ptr<CurveCompression> level_before_;
+    LevelBefore level_before_;
     Warnings warnings_;
     Outcome ended_ = PLM_OK;
 };

@@ -17,6 +17,8 @@ class ErrorBudget {
     /// A compressed model against its basis, at the highest motion: the basis takes its share, too; and where
     /// a curve takes minutes, not another one for less.
     double compressed(bool dear) const { return (dear ? 0.5 : 0.3) * accuracy_; }
+    /// The same of a curve that has been followed: another one for less costs as much again.
+    double compressed_before_another() const { return compressed(true); }
     /// The same as predicted: the motion at the highest point of the next curve is another one.
     double compressed_as_predicted(bool dear) const { return 0.5 * compressed(dear); }
     /// What the step to a model may have changed that is followed because the next one would save nothing:

@@ -1,4 +1,7 @@
 #include "motions/tracer.hpp"
+#include "motions/compressed_motion.hpp"
+#include "reduction/widened_model.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace plm {
@@ -6,6 +9,21 @@ namespace {
 
 // What begins anew costs a factorization, and what a curve goes on from is followed once more.
 constexpr std::int64_t steps_between_stands = 10;
+
+// The points of a curve but for those located on it, in the coordinates of this model. None: they cannot be
+// had.
+std::vector<BranchPoint> on_model(const Branch &curve, const std::shared_ptr<const ReducedModel> &model) {
+    std::vector<BranchPoint> points;
+    const bool same = curve.reduced_model() == model;
+    if (!same && !of_one_basis(curve.reduced_model(), model)) return points;
+    for (const BranchPoint &p : curve.points()) {
+        if (p.bifurcation != bifurcation::none) continue;
+        BranchPoint there = same ? p : uncompressed(curve.reduced(), p);
+        if (!same && model->from && !compress(*model, there, there)) return {};
+        points.push_back(std::move(there));
+    }
+    return points;
+}
 
 } // namespace
 
@@ -32,7 +50,25 @@ void CurveTracer::run(const CurveStart &start) {
     if (start.towards.empty()) path.direction.x.clear();
     if (start.away) scale_by(-1, path.direction);
     path.residual = start.point.residual;
+    if (start.beside) guide_ = guide_by(start.beside.get(), start.point.omega);
+    range.guide = guide_.get();
     keep_points([&] { follow_on(range, path); });
+}
+
+// From there on: its motions, as large as the force makes them here.
+std::unique_ptr<PathGuide> CurveTracer::guide_by(const Branch *known, double omega) const {
+    const double ratio = known->force_scale() != 0 ? limits_.force_scale / known->force_scale() : 1;
+    const auto ordinary =
+        std::make_shared<std::vector<BranchPoint>>(on_model(*known, branch_.reduced_model()));
+    if (ordinary->empty()) return nullptr;
+    if (std::abs(ordinary->back().omega - omega) < std::abs(ordinary->front().omega - omega))
+        std::reverse(ordinary->begin(), ordinary->end());
+    return std::make_unique<PathGuide>(ordinary->size(), [this, ordinary, ratio](std::size_t i) {
+        PathState state = state_of((*ordinary)[i]);
+        for (std::size_t j = static_cast<std::size_t>(equations_->static_size()); j < state.x.size(); ++j)
+            state.x[j] *= ratio;
+        return state;
+    });
 }
 
 void CurveTracer::follow_on(const PathOptions &range, const PathStart &start) {

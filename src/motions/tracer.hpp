@@ -3,7 +3,9 @@
 #include "motions/branch_path.hpp"
 #include "motions/curve_recorder.hpp"
 #include "motions/periodic_equations.hpp"
+#include "paths/path_guide.hpp"
 #include <functional>
+#include <memory>
 
 namespace plm {
 
@@ -35,6 +37,7 @@ struct CurveStart {
     /// options.upward decides.
     std::vector<BranchPoint> towards;
     bool away = false; // the curve leaves on the other side: on past `point`, as one comes from towards[0]
+    std::shared_ptr<const Branch> beside = nullptr; // the curve of a force level near by, or null
 };
 
 /// Of a response curve over the frequency, with its folds and bifurcations. At every tenth step all begins
@@ -71,8 +74,13 @@ class CurveTracer : public Tracer {
   private:
     PathState state_of(const BranchPoint &point) const { return {equations_->unknowns(point), point.omega}; }
 
+    /// Along the curve of another force level, from the end that is nearer to omega; null: it is of another
+    /// model.
+    std::unique_ptr<PathGuide> guide_by(const Branch *known, double omega) const;
+
     const MotionOptions limits_;
-    std::int64_t since_stand_ = 0; // steps
+    std::unique_ptr<PathGuide> guide_; // or null
+    std::int64_t since_stand_ = 0;     // steps
 };
 
 } // namespace plm

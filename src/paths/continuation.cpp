@@ -1,5 +1,6 @@
 #include "paths/continuation.hpp"
 #include "linalg/error.hpp"
+#include "paths/path_guide.hpp"
 #include "paths/path_return.hpp"
 #include "paths/special_points.hpp"
 #include "paths/step_length.hpp"
@@ -13,6 +14,9 @@ namespace {
 constexpr double after_failure = 0.4; // of the step that failed
 constexpr double first_step = 0.2,
                  step_after_rescue = 0.05; // of the largest: nothing is known of the path ahead
+
+// Than the longest steps of its own is one that a neighbouring path shows the end of.
+constexpr double longer_if_foreseen = 3;
 
 // Where a correction may lead: it moves in the plane across the step, so that the distance from the last
 // point is about that step, unless it has come upon another piece of the path.
@@ -42,7 +46,8 @@ constexpr int most_rescues = 5; // more lead in circles: back to where the path 
 class Continuation {
   public:
     Continuation(Residual &system, const PathOptions &options, PathOwner &owner)
-        : walker_(system, options, owner), options_(options), owner_(owner), back_(walker_, system.size()) {}
+        : walker_(system, options, owner), options_(options), owner_(owner), back_(walker_, system.size()),
+          way_(options.max_step) {}
 
     PathOutcome run(const PathStart &start) {
         begin(start);
@@ -114,11 +119,15 @@ class Continuation {
     }
 
     void advance() {
-        PathState next = predict(out_.step);
-        const NewtonOutcome out =
-            walker_.correct(next, walker_.tangent(), across_damping, walker_.is_factored());
+        PathState next, across = walker_.tangent();
+        foreseen_ = !astray_ && options_.guide &&
+                    options_.guide->foresee(walker_.now(), walker_.tangent(), walker_.metric(),
+                                            longer_if_foreseen * way_, next, across);
+        if (!foreseen_) next = predict(out_.step);
+        const double step = foreseen_ ? walker_.metric().distance(next, walker_.now()) : out_.step;
+        const NewtonOutcome out = walker_.correct(next, across, across_damping, walker_.is_factored());
         const double moved = out.converged ? walker_.metric().distance(next, walker_.now()) : 0;
-        if (!is_near(out, moved, out_.step)) return retry(out.reason);
+        if (!is_near(out, moved, step)) return retry(out.reason);
         const PathState before = walker_.now(), old_tangent = walker_.tangent();
         const vector<double> old_tests = out_.tests;
         walker_.move(std::move(next));
@@ -138,10 +147,11 @@ class Continuation {
         // the square root of the way): beyond a right angle the nearer of the two directions leads back.
         if (angle > PathWalker::sharp_angle) walker_.orient(out_.orientation);
         if (!accept(out, moved, old_tangent, before)) return retry(reason::step_minimum);
+        astray_ = false;
         if (angle > PathWalker::sharp_angle) out_.last_step = 0; // a corner is no bend
         out_.orientation = walker_.orientation();
-        out_.step = std::min(way_to_change(old_tests, out_.tests, moved, options_.max_step),
-                             out_.step * step_growth(angle, out));
+        way_ = way_to_change(old_tests, out_.tests, moved, options_.max_step);
+        out_.step = std::min(way_, out_.step * step_growth(angle * out_.step / step, out));
         out_.step = std::min(options_.max_step, std::max(options_.min_step, out_.step));
     }
 
@@ -263,6 +273,8 @@ class Continuation {
         ++out_.failed_steps;
         ++out_.failed_now;
         walker_.set_factored(false);
+        astray_ = astray_ || foreseen_;
+        if (foreseen_) return; // the next step is one of its own
         out_.plain_predictor = out_.failed_steps % 2 == 0;
         out_.step *= after_failure;
         if (out_.step >= options_.min_step) return;
@@ -366,6 +378,9 @@ class Continuation {
     PathOwner &owner_;
     PathReturn back_;
     bool interrupted_ = false;
+    double way_; // to a change of the owner's test functions, as far as it is in sight
+    // Whether the step goes where the neighbouring path shows, and whether the last one that did failed.
+    bool foreseen_ = false, astray_ = false;
     PathOutcome out_; // so far
 };
 

@@ -5,6 +5,8 @@
 
 namespace plm {
 
+class PathGuide; // path_guide.hpp
+
 struct PathOptions {
     double low = 0, high = 0; // range of p
     bool upward = false;      // direction at the start, unless PathStart gives one
@@ -15,7 +17,8 @@ struct PathOptions {
     // small responses, as motions of several periods do from the shorter ones, which a coarse step would
     // go on along.
     bool scale_falls = false;
-    bool locate = false; // folds, branch points and changes of the owner's test functions
+    bool locate = false;        // folds, branch points and changes of the owner's test functions
+    PathGuide *guide = nullptr; // a neighbouring path by which steps are longer, or null
 };
 
 /// One converged point of a path, as its owner wants to keep it. The system is linearised there.

@@ -16,11 +16,11 @@ namespace {
 constexpr std::int64_t many_coordinates = 30;
 // What is left out of the motions, in the energy norm: at first. The amplitudes that follow are nearer.
 constexpr double left_out_at_first = 1e-3;
-// How much less each time that was too much where the whole basis is at hand to compare with.
-constexpr double a_little_less = 0.6;
 // Where all pairs bounce, their motions have something of every direction, most of it too little to move an
 // amplitude: a model grows by no more than this from one to the next.
 constexpr double grows = 1.5;
+// The same where the whole basis is at hand to compare with: by no more than is needed.
+constexpr double grows_beside_whole = 1.1;
 constexpr std::int64_t motions_looked_at = 6; // of the first curve, besides its highest
 constexpr std::int64_t most_rounds = 6;
 
@@ -70,9 +70,13 @@ bool CurveCompression::is_dear(const ReducedModel &model) const {
 }
 
 std::shared_ptr<const ReducedModel> CurveCompression::compressed_after(const ReducedModel *last) const {
+    return compressed_to(last ? grows * static_cast<double>(last->size())
+                              : static_cast<double>(whole_->size()));
+}
+
+std::shared_ptr<const ReducedModel> CurveCompression::compressed_to(double most) const {
     std::vector<vector<double>> springs = needs_.springs;
     springs.push_back(whole_->contact.stiffness);
-    const double most = last ? grows * static_cast<double>(last->size()) : whole_->size();
     return compress_beside_modes(whole_, needs_.motions, springs, omega_, left_out_, slow_modes * highest_,
                                  static_cast<std::int64_t>(most));
 }
@@ -115,11 +119,8 @@ bool CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, 
     const double now = amplitude(model, exact);
     if (point.amplitude >= 0) point.change = std::abs(now - point.amplitude) / peak_;
     point.amplitude = now;
-    point.needs = {};
-    point.needs.springs.push_back(mean_springs(*model, exact));
-    take(uncompressed(*model, exact), point.needs.motions);
+    point.needs = needs_at(*model, exact);
     point.motion = corrected_on_whole(*model, exact);
-    take(point.motion, point.needs.motions);
     point.exact = std::move(exact);
     return true;
 }
@@ -219,7 +220,7 @@ bool CurveCompression::begin_with(const Branch &look) {
 }
 
 // What compression leaves out is a share of the motions, which are about as large as the force.
-void CurveCompression::go_on(const HbmOptions &options) {
+void CurveCompression::go_on(const HbmOptions &options, const Branch &curve) {
     const double force = std::abs(options_.force_scale), next = std::abs(options.force_scale);
     const Level before = last_;
     last_ = {force, change_};
@@ -228,22 +229,36 @@ void CurveCompression::go_on(const HbmOptions &options) {
     if (better_ == whole_ && before.change > 0 && change_ > 0 && before.force != force && next > 0) {
         const double power = std::log(change_ / before.change) / std::log(force / before.force),
                      growth = std::pow(next / force, power);
-        if (growth * change_ > tolerance() && grow_to(tolerance_predicted() / growth)) last_ = {};
+        if (growth * change_ > tolerance() && grow_to(tolerance_predicted(), curve)) last_ = {};
     }
     if (force > 0 && next > 0) scale_ *= next / force;
     options_ = options;
 }
 
-// Until the motion that the whole basis has at the curve's highest point is so near on a model. False: none
-// much smaller than the whole one is.
-bool CurveCompression::grow_to(double enough) {
-    take(top_on_better_, needs_.motions);
-    needs_.springs.push_back(mean_springs(*whole_, top_on_better_));
+CurveCompression::Needs CurveCompression::needs_at(const ReducedModel &model,
+                                                   const BranchPoint &exact) const {
+    Needs needs;
+    needs.springs.push_back(mean_springs(model, exact));
+    take(uncompressed(model, exact), needs.motions);
+    if (model.from) take(corrected_on_whole(model, exact), needs.motions);
+    return needs;
+}
+
+// From what the curve's own motions ask for, until the motion that the whole basis has at its highest point
+// is so near on a model. False: none much smaller than the whole one is.
+bool CurveCompression::grow_to(double enough, const Branch &curve) {
+    needs_ = needs_at(*whole_, top_on_better_);
+    for (std::int64_t i : spread_over(curve, motions_looked_at)) {
+        const BranchPoint &p = curve.points()[static_cast<std::size_t>(i)];
+        if (p.motion) needs_.append(needs_at(curve.reduced(), p));
+    }
     const double amplitude_there = amplitude(whole_, top_on_better_);
+    double most = static_cast<double>(model_->size());
     std::int64_t size = 0;
     for (std::int64_t round = 0; round < most_rounds; ++round) {
-        left_out_ *= a_little_less;
-        const auto larger = compressed_after(model_.get());
+        left_out_ *= ErrorBudget::next_try;
+        most = std::ceil(grows_beside_whole * most);
+        const auto larger = compressed_to(most);
         if (!is_much_smaller(*larger, *whole_)) break;
         if (larger->size() == size) continue;
         size = larger->size();
@@ -261,9 +276,7 @@ bool CurveCompression::grow_to(double enough) {
 
 // By what the whole basis answers at one point of a curve. False: such a model saves nothing.
 bool CurveCompression::grow_at(const ReducedModel &model, const BranchPoint &point) {
-    needs_.springs.push_back(mean_springs(model, point));
-    take(uncompressed(model, point), needs_.motions);
-    take(corrected_on_whole(model, point), needs_.motions);
+    needs_.append(needs_at(model, point));
     left_out_ *= ErrorBudget::next_try;
     const auto larger = compressed_after(&model);
     if (larger->size() <= model.size() || is_dear(*larger) || !saves(*larger)) return false;
@@ -278,9 +291,8 @@ bool CurveCompression::confirms(const Branch &curve) {
     if (!exact.motion) return false;
     if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
         compare_with_whole(curve);
-        if (change_ <= tolerance()) return true;
-        grow_to(tolerance_predicted());
-        return false;
+        if (change_ <= ErrorBudget(options_.accuracy).compressed_before_another()) return true;
+        return !grow_to(tolerance_predicted(), curve) && change_ <= options_.accuracy;
     }
     std::vector<Point> one(1);
     one[0].motion = uncompressed(curve.reduced(), exact);

@@ -37,7 +37,7 @@ class CurveCompression {
     /// these do not settle on a model that is much smaller.
     bool begin_with(const Branch &look);
     /// From a curve that was confirmed to that of another force level, whose motions are much like it.
-    void go_on(const HbmOptions &options);
+    void go_on(const HbmOptions &options, const Branch &curve);
     /// To follow the curve on.
     const std::shared_ptr<const ReducedModel> &model() const { return model_; }
     /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is
@@ -87,6 +87,7 @@ class CurveCompression {
     bool is_last_not_dear(const ReducedModel &model) const;
     /// last: the one that this one grows from; null: none.
     std::shared_ptr<const ReducedModel> compressed_after(const ReducedModel *last) const;
+    std::shared_ptr<const ReducedModel> compressed_to(double most) const;
     /// Solves the exact motions beside the points on this model, but for those that have settled: only the
     /// last one, the highest, is never left out. Returns the largest change of an amplitude over the peak;
     /// infinite where none can be compared.
@@ -99,7 +100,8 @@ class CurveCompression {
     bool agrees(const BranchPoint &on_curve, const std::shared_ptr<const ReducedModel> &model,
                 const BranchPoint &there, double amplitude_on_curve, double error) const;
     void compare_with_whole(const Branch &curve);
-    bool grow_to(double enough);
+    Needs needs_at(const ReducedModel &model, const BranchPoint &exact) const;
+    bool grow_to(double enough, const Branch &curve);
     bool grow_at(const ReducedModel &model, const BranchPoint &point);
     bool find_on_whole(const Branch &curve, std::int64_t point, BranchPoint &found);
     bool agrees_on_whole(const Branch &curve, std::int64_t point);

@@ -52,7 +52,7 @@ SweepTask Hbm::task() const {
     return {{reduced_, options_, watch_, exact_}, reach_};
 }
 
-std::shared_ptr<const Branch> Hbm::sweep(const Output *asked, std::shared_ptr<CurveCompression> *level_before,
+std::shared_ptr<const Branch> Hbm::sweep(const Output *asked, LevelBefore *level_before,
                                          std::shared_ptr<const Branch> look) const {
     SweepTask task = this->task();
     task.look = std::move(look);

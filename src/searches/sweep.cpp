@@ -75,6 +75,7 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
                    "with a smaller force_scale%s",
                    from / (2 * M_PI), drift_hint(*task.reduced).c_str()))
             .reason(reason::start_failed);
+    if (task.level_before) start.beside = task.level_before->curve;
     trace_curve(task.options, start, task.watch, *branch, task.recorder);
     if (task.exact && task.options.motion == MotionKind::automatic && is_stuck(*branch)) {
         const auto other = by_harmonics(task, start.point.omega);
@@ -93,9 +94,9 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
 // The model that the curve of another level was followed on, or one by a first look at this one. False: the
 // latter would not be much smaller than the basis.
 bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> &compression) {
-    if (task.level_before && *task.level_before) {
-        compression = std::move(*task.level_before);
-        compression->go_on(task.options);
+    if (task.level_before && task.level_before->compression) {
+        compression = std::move(task.level_before->compression);
+        compression->go_on(task.options, *task.level_before->curve);
         return true;
     }
     compression = std::make_shared<CurveCompression>(task.reduced, task.options,
@@ -129,6 +130,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
             require_unstopped(*branch);
             if (is_stuck(*branch)) return nullptr;
             whole = branch;
+            if (task.level_before) task.level_before->curve = branch;
             const bool confirmed = compression.confirms(*branch);
             if (std::isfinite(compression.error())) branch->model_error = compression.error();
             if (!confirmed && !compression.is_spent()) {
@@ -137,7 +139,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
             }
             if (!compression.confirms_stability(*branch) && k + 1 < most_curves) continue;
             compression.warn(*branch);
-            if (task.level_before) *task.level_before = kept;
+            if (task.level_before) task.level_before->compression = kept;
             return branch;
         }
     } catch (const Error &e) {
@@ -219,6 +221,7 @@ std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     SweepTask look = task;
     look.exact = false;
     look.recorder = nullptr; // made again in seconds
+    look.level_before = nullptr;
     look.options.motion = MotionKind::harmonics;
     look.options.tolerance = std::max(task.options.tolerance, ErrorBudget(task.options.accuracy).look());
     look.options.max_points = std::min(few_points, task.options.max_points);
@@ -277,6 +280,7 @@ std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {
                     "no periodic response was found with the effort allowed; raise the effort "
                     "of the context, or sweep over a smaller range")
             .reason(reason::effort);
+    if (task.level_before) task.level_before->curve = branch;
     return branch;
 }
 

@@ -9,12 +9,17 @@ namespace plm {
 
 class CurveCompression; // compressed_curve.hpp
 
+/// What the curve of another force level leaves for the next one.
+struct LevelBefore {
+    std::shared_ptr<CurveCompression> compression; // that it was followed on; null: on the whole basis
+    std::shared_ptr<const Branch> curve;           // null: there is none yet
+};
+
 struct SweepTask : ResponseTask {
     SweepRange reach = {};         // how far the curve may go on to have its peak inside
     const Output *asked = nullptr; // whose peak that is to be, too
-    /// The model that the curve of another force level was followed on: taken up, and left for the next
-    /// level. Null: this curve is the only one.
-    std::shared_ptr<CurveCompression> *level_before = nullptr;
+    /// Taken up, and left for the next level. Null: this curve is the only one.
+    LevelBefore *level_before = nullptr;
     /// A whole curve on that model with few harmonics, where one is known (sweep_with_few_harmonics()).
     std::shared_ptr<const Branch> look = nullptr;
     CurveRecorder *recorder = nullptr; // of its curves; null: they are not recorded

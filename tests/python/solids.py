@@ -113,9 +113,8 @@ class Solid:
                 faces.append(corners + (middles if self.kind in ("brick20", "tetra10") else []))
         return faces
 
-    def pressure(self, axis, end, value=1.0):
-        """Nodal forces of a uniform pressure on a side, n x 3."""
-        force = numpy.zeros_like(self.xyz)
+    def on_faces(self, axis, end):
+        """Integration points of a side: the nodes of the face, their shape functions there, and the area with its inward normal."""
         for face in self.faces(axis, end):
             square = self.kind.startswith("brick")
             corners = numpy.array([[0, 0], [1, 0], [1, 1], [0, 1]] if square else [[0, 0], [1, 0], [0, 1]], float)
@@ -130,8 +129,21 @@ class Solid:
                 if not square:
                     t, b = t * (1 - s), b * (1 - s)
                 N, ds, dt = (f[0] @ inverse for f in flat(powers, numpy.array([[s, t]])))
-                force[face] -= value * a * b * numpy.outer(N, numpy.cross(ds @ self.xyz[face], dt @ self.xyz[face]))
+                yield face, N, -a * b * numpy.cross(ds @ self.xyz[face], dt @ self.xyz[face])
+
+    def pressure(self, axis, end, value=1.0):
+        """Nodal forces of a uniform pressure on a side, n x 3."""
+        force = numpy.zeros_like(self.xyz)
+        for face, N, area in self.on_faces(axis, end):
+            force[face] += value * numpy.outer(N, area)
         return force
+
+    def bed(self, axis, end, spring):
+        """Springs under a side in all directions, of so much on an area, join the stiffness."""
+        springs = scipy.sparse.lil_matrix((len(self.xyz),) * 2)
+        for face, N, area in self.on_faces(axis, end):
+            springs[numpy.ix_(face, face)] += spring * numpy.linalg.norm(area) * numpy.outer(N, N)
+        self.stiffness = (self.stiffness + scipy.sparse.kron(springs, numpy.eye(3))).tocsc()
 
 
 def flat(powers, x):

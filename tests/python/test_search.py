@@ -53,14 +53,26 @@ class Stops(unittest.TestCase):
 
 
     def test_levels(self):
-        """In the order asked for, each as a sweep of it alone: on a basis this small nothing is shared."""
+        """In the order asked for, each with the peak and the special points of a sweep of it alone, by fewer points."""
         scales = [0.5, 1.0, 0.75]
         curves = self.hbm.sweep_levels(scales)
         self.assertEqual([curve.force_scale for curve in curves], scales)
-        alone = plm.Hbm(models.between_stops(), force_scale=0.75).sweep()
-        numpy.testing.assert_array_equal(curves[2].frequency_hz, alone.frequency_hz)
         self.assertEqual(self.hbm.n_found, 3)
         self.assertEqual(self.hbm.force_scale, 1)
+        for basis, scales in (models.between_stops, scales), (models.carrier, [0.006, 0.005, 0.004]):
+            hbm = plm.Hbm(basis())
+            for curve, scale in zip(hbm.sweep_levels(scales), scales):
+                alone = plm.Hbm(basis(), force_scale=scale)
+                sweep = alone.sweep()
+                self.assertEqual([b.kind for b in curve.bifurcations], [b.kind for b in sweep.bifurcations])
+                numpy.testing.assert_allclose([b.frequency_hz for b in curve.bifurcations], [b.frequency_hz for b in sweep.bifurcations], rtol=1e-5)
+                if scale != max(scales):
+                    self.assertLess(len(curve), 0.8 * len(sweep))
+                if basis == models.between_stops:  # its highest point stands at an end
+                    continue
+                one, other = hbm.find_peak(curve, 0), alone.find_peak(sweep, 0)
+                self.assertLess(abs(one.amplitude / other.amplitude - 1), 1e-9)
+                self.assertLess(abs(one.frequency_hz / other.frequency_hz - 1), 1e-8)  # of a flat top
 
     def test_levels_that_end_early(self):
         """Each is named, and delivered as far as it goes."""

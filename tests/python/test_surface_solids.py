@@ -129,9 +129,8 @@ class SurfacesOfSolids(unittest.TestCase):
         self.assertGreater(self.curved("brick8", 0.0, 5e-3)[1], 0.5)
 
     def test_peak_of_rings(self):
-        """As 64 against 96 elements around: the peak, of motions that open, is that of meshes that match to 0.5 %. Whole rings, 64
-        against 96 bricks of 20 nodes, measured once: height 1.3e-4, frequency 2.7e-4 from 96 against 96, whose outer mesh it has;
-        64 against 64 is itself 2.6e-2 and 1.2e-2 from that."""
+        """As 64 against 96 elements around: the peak, of motions that open, is that of meshes that match to 0.5 %. Whole rings:
+        rings.py."""
         frequency, height = arch(32, 48)
         for same in (32, 48):
             other = arch(same, same)

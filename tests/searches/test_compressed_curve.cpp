@@ -177,9 +177,9 @@ void grows_no_further_than_told(void **) {
 void a_level_goes_on_from_the_one_before(void **) {
     const Plate &p = plate(true);
     plm::HbmOptions o;
-    std::shared_ptr<plm::CurveCompression> before;
+    plm::LevelBefore before;
     plm::Hbm(p.basis, o, plm::Watch()).sweep(nullptr, &before);
-    assert_true(before != nullptr);
+    assert_true(before.compression != nullptr);
     o.force_scale = 0.5;
     const plm::Hbm half(p.basis, o, plm::Watch());
     const std::int64_t work_before = plm::work_done();
@@ -192,9 +192,9 @@ void a_level_goes_on_from_the_one_before(void **) {
     const plm::Hbm exactly(p.basis, o, plm::Watch());
     const double right = p.peak(exactly, exactly.sweep()).amplitude;
     std::printf("    a level takes %.2g of the work of its curve alone\n", share);
-    assert_true(before != nullptr && level->reduced().from != nullptr);
+    assert_true(before.compression != nullptr && level->reduced().from != nullptr);
     assert_true(below(std::abs(p.peak(half, level).amplitude / right - 1), allowed));
-    assert_true(below(share, 1.0)); // on a model that has more than half the force needs
+    assert_true(below(share, 0.75)); // by longer steps, on a model that has more than half the force needs
 }
 
 struct GoneOn {
