@@ -67,9 +67,9 @@ choose() {
                   test_capi_search_calls test_capi_transient_runs test_host_cancelled_thread test_host_scenarios'
         tests='^(orbits[.](flow|orbit_equations)|contact[.]contact_force|capi[.](run|search_calls|transient_runs)|host[.](cancelled_thread|scenarios))$' ;;
     release) # what the shared object carries and hides
-        programs='plm plm_static test_capi_run test_host_own_lapack test_host_quiet_blas test_host_ilp64 test_host_fork
+        programs='plm plm_static test_capi_run test_host_own_lapack test_host_own_kernels test_host_quiet_blas test_host_ilp64 test_host_fork
                   test_host_limit test_host_starved test_host_unload test_host_plugin_shared test_host_plugin_static'
-        tests='^(capi[.]run|host[.](own_lapack|quiet_blas|ilp64|fork|limit|starved_[a-z]*|unload|plugin_exports)|abi[.](object|ledger))$' ;;
+        tests='^(capi[.]run|host[.](own_lapack|own_kernels|quiet_blas|ilp64|fork|limit|starved_[a-z]*|unload|plugin_exports)|abi[.](object|ledger))$' ;;
     esac
 }
 

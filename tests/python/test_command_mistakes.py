@@ -90,7 +90,7 @@ class Mistakes(Folder):
         self.assertTrue((self.folder / "Bögen" / "modes.csv").exists())
 
     def test_advice_names_options_of_the_command(self):
-        _, err = self.here("response", self.path("case.toml"), "--effort", "1e-9", status=3)
+        _, err = self.here("response", self.path("case.toml"), "--effort", "1e-9", "--frequency-min-hz", "1", "--frequency-max-hz", "100", status=3)
         self.assertIn("raise --effort (0: no limit)", err)
         self.assertNotIn("raise effort", err)
         _, err = self.here("response", self.path("case.toml"), "--frequency-min-hz", "100", "--frequency-max-hz", "200", status=1)

@@ -169,9 +169,10 @@ class Saved(unittest.TestCase):
         self.assertEqual([one.name for one in self.path.parent.iterdir()], ["curve.plm"])
 
     def test_on_compressed_models(self):
-        """Nothing set, many coordinates: stopped on the first compressed model or on the next one, whose making is done again."""
+        """Many coordinates, an accuracy that the first model misses: stopped on that or on the next one, whose making is done again."""
         basis = models.stopped_chain()
-        said, versions, hbm = [], [], plm.Hbm(basis)
+        options = {"accuracy": 1e-4}
+        said, versions, hbm = [], [], plm.Hbm(basis, **options)
         basis.context.log = lambda _level, text: said.append(text)
 
         def look(_stage, _fraction):
@@ -185,11 +186,11 @@ class Saved(unittest.TestCase):
         hbm.save_every(0)
         n = [len(plm.Branch.from_bytes(basis, data)) for data in versions]
         second = next(i for i in range(1, len(n)) if n[i] < n[i - 1])  # where the next model's curve begins
-        part = cancelled(basis, {}, counted(basis, {})[1] * 3 // 4)
+        part = cancelled(basis, options, counted(basis, options)[1] * 3 // 4)
         self.assertEqual(part.status, plm.CANCELLED)
         parts = [versions[second // 2], versions[-2], part.to_bytes()]
         with multiprocessing.get_context("spawn").Pool(1) as pool:  # from bytes alone
-            elsewhere = pool.apply(resume_elsewhere, ((basis.to_bytes(), parts[0], {}),))
+            elsewhere = pool.apply(resume_elsewhere, ((basis.to_bytes(), parts[0], options),))
         ends = [plm.Branch.from_bytes(basis, elsewhere)]
         ends += [quietly(hbm.resume, plm.Branch.from_bytes(basis, data)) for data in parts[1:]]
         for i, end in enumerate(ends):
