@@ -203,9 +203,9 @@ def draw(path):
                 reference = ([seconds, seconds], [5e-4, 4])
             else:
                 ax.loglog(seconds, error, "o" if own else "s", color=COLOURS[0 if own else 1], mfc=None if own else "white", ls="")
-        ax.set_xlim(1, 20)
+        ax.set_xlim(1, 5)
         ax.set_ylim(5e-4, 4)
-        round_ticks(ax.xaxis, 1, 20)
+        round_ticks(ax.xaxis, 1, 5)
         ax.set_yticks([0.001, 0.01, 0.1, 1], ["0.001", "0.01", "0.1", "1"])
         ax.minorticks_off()
         ax.set_xlabel("time of the first curve, set-up included (s)")
