@@ -34,7 +34,7 @@ struct EffortBudget {
 
     /// Of what is left: what goes on first, where its result has to be looked at or something else has to
     /// follow.
-    static constexpr double most = 0.85;
+    static constexpr double most = 0.9;
     /// For each of several things, of which the next ones need less.
     static constexpr double half = 0.5;
 
