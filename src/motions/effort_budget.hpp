@@ -34,7 +34,9 @@ struct EffortBudget {
 
     /// Of what is left: what goes on first, where its result has to be looked at or something else has to
     /// follow.
-    static constexpr double most = 0.9;
+    static constexpr double most = 0.85;
+    /// The same of a curve of exact motions, where harmonics can have the rest: they need little.
+    static constexpr double exact_first = 0.9;
     /// For each of several things, of which the next ones need less.
     static constexpr double half = 0.5;
 

@@ -273,7 +273,8 @@ std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {
     std::shared_ptr<Branch> branch;
     const bool has_other = (task.exact && task.options.motion == MotionKind::automatic) ||
                            compresses(*task.reduced, task.options);
-    within((has_other ? EffortBudget::most : 1) * effort_left(), [&] { branch = sweep_either_way(task); });
+    within((has_other ? EffortBudget::exact_first : 1) * effort_left(),
+           [&] { branch = sweep_either_way(task); });
     if (has_other && (!branch || branch->end_reason == reason::effort)) take_harmonics(task, branch);
     if (!branch)
         throw Error(status::cancelled,
