@@ -16,7 +16,6 @@ constexpr std::int64_t least_harmonics = 5;
 // A point that misses the equations of the whole structure by more of its size is too far from the better
 // solution for steps along tangents to tell how far.
 constexpr double too_far = 0.02;
-
 constexpr double not_judged = std::numeric_limits<double>::quiet_NaN();
 
 // Harmonics to estimate with; 0: too many gaps.
