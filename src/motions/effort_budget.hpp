@@ -15,13 +15,14 @@ struct EffortBudget {
     /// The estimate of an error where nothing else is left to do: the answer is worth little without.
     static constexpr double last_estimate = 4e10;
 
-    /// A step of a curve, of which there are some hundreds. Exact motions are taken where one costs no more,
-    /// however cheap harmonics are;
-    static constexpr double cheap_step = 5e7;
-    /// above, they are followed on a compressed model, where there are coordinates to spare;
+    /// A step of a curve of exact motions, of which there are some hundreds, on the whole basis: where one
+    /// costs more, a compressed model is made, if there are coordinates to spare.
     static constexpr double step_to_compress = 2e7;
-    /// above, a tenth of a second, motions take a share of the accuracy. Below, they are as exact as others:
-    /// near grazing, multipliers answer to the root of an error.
+    /// Up to this exact motions are taken however cheap harmonics are.
+    static constexpr double cheap_step = 5e7;
+    /// A tenth of a second: where one costs more, motions on a compressed model are exact to a share of the
+    /// accuracy alone. Below, they are as exact as others: near grazing, multipliers answer to the root of an
+    /// error.
     static constexpr double long_step = 5e8;
     /// A step on a compressed model, of one on the whole: on cracked plates and cylinders, compressed to a
     /// third of their coordinates.
@@ -40,9 +41,9 @@ struct EffortBudget {
     /// For each of several things, of which the next ones need less.
     static constexpr double half = 0.5;
 
-    /// A look at a point factors one matrix of all gaps in all harmonics,
+    /// The estimate of an error by harmonics factors one matrix of n gaps in all harmonics: this times n^3;
     static constexpr double of_factor = 2.0 / 3.0;
-    /// and forms vectors of the unreduced structure: so many numbers for a flop.
+    /// and it forms vectors of the unreduced structure: so many numbers for a flop.
     static constexpr double numbers_for_a_flop = 0.01;
 };
 

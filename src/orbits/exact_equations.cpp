@@ -131,7 +131,7 @@ double ExactEquations::work(double omega, double force) const {
     double rest = period;
     for (const ContactInterval &interval : intervals) rest -= interval.duration;
     if (!intervals.empty()) intervals.back().duration += rest;
-    return orbit_work(orbits_.shared_model(), orbits_.state(x_.data()), omega, force, intervals, load(omega),
+    return orbit_work(orbits_.model(), orbits_.state(x_.data()), omega, force, intervals, load(omega),
                       harmonic_ * omega, *orbits_.modes()) /
            period;
 }

@@ -56,6 +56,7 @@ class ModalPieces {
 
   private:
     using Complex = std::complex<double>;
+    static constexpr std::int64_t flops_of_mode = 200; // its exponential, and its loads
     // Response of one mode to one load: (plus (t) e^{iht} + minus (t) e^{-iht}), linear in t for the change.
     struct Steady {
         Complex plus, minus, plus_slope, minus_slope;

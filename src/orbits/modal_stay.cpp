@@ -11,7 +11,6 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr std::int64_t flops_of_mode = 200;      // flops: its exponential, and its loads
 constexpr int most_tangents = 12;                // of Newton's method
 constexpr double at_the_zero = 4e-16;            // of the time, of the last step
 constexpr double square_root_of_rounding = 1e-8; // of the duration: the next step would be rounding

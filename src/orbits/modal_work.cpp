@@ -1,5 +1,6 @@
 // The work of the motion in the modes of a contact set against a harmonic load: every part of the motion is
 // one exponential, with which the cosine and the sine of the load are integrated in closed form.
+#include "linalg/work.hpp"
 #include "orbits/exponential_integrals.hpp"
 #include "orbits/modal_pieces.hpp"
 
@@ -26,6 +27,7 @@ Complex seen_by(const vector<double> &row, const ContactModes::Mode &m, Complex 
 double ModalPieces::work(const HarmonicLoad &load, double frequency, double duration) const {
     const std::size_t size = static_cast<std::size_t>(modes_->size()),
                       following = static_cast<std::size_t>(model_.n_moving());
+    worked(static_cast<double>(2 * flops_of_mode * modes_->size() + 4 * model_.size() * modes_->size()));
     vector<double> real(size), imaginary(size, 0.0);
     gemv('T', 1.0, modes_->displacement(), load.real.data(), 0.0, real.data());
     if (!load.imag.empty()) gemv('T', 1.0, modes_->displacement(), load.imag.data(), 0.0, imaginary.data());

@@ -36,10 +36,10 @@ void pass_back(const ContactModes &modes, const HarmonicLoad &load, double omega
 
 } // namespace
 
-double orbit_work(const std::shared_ptr<const FlowModel> &model, FlowState state, double excitation,
-                  double force_scale, const std::vector<ContactInterval> &intervals, const HarmonicLoad &load,
-                  double omega, ContactModesKept &modes) {
-    ModalPieces motion(*model, excitation, force_scale, FlowParameter::none);
+double orbit_work(const FlowModel &model, FlowState state, double excitation, double force_scale,
+                  const std::vector<ContactInterval> &intervals, const HarmonicLoad &load, double omega,
+                  ContactModesKept &modes) {
+    ModalPieces motion(model, excitation, force_scale, FlowParameter::none);
     FlowState no_change;
     double work = 0;
     for (const ContactInterval &interval : intervals) {

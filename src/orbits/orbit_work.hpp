@@ -10,9 +10,9 @@ namespace plm {
 /// excitation (its frequency and its scale). Its events stay where the intervals have them: to the square of
 /// what they move by that is the work of a motion beside the one that they are of. NaN where the modes of a
 /// contact set are not usable.
-double orbit_work(const std::shared_ptr<const FlowModel> &model, FlowState state, double excitation,
-                  double force_scale, const std::vector<ContactInterval> &intervals, const HarmonicLoad &load,
-                  double omega, ContactModesKept &modes);
+double orbit_work(const FlowModel &model, FlowState state, double excitation, double force_scale,
+                  const std::vector<ContactInterval> &intervals, const HarmonicLoad &load, double omega,
+                  ContactModesKept &modes);
 
 /// Derivative of that by the state at the beginning (displacements of what moves, velocities of what has
 /// mass). Through the instants of the events it does not change: the motion is continuous there. Empty where

@@ -27,8 +27,7 @@ class Hbm {
 
     /// Always returns a branch with at least one point, or throws; the outcome is in branch->end_reason.
     /// asked, level_before, look: as in SweepTask.
-    std::shared_ptr<const Branch> sweep(const Output *asked = nullptr,
-                                        LevelBefore *level_before = nullptr,
+    std::shared_ptr<const Branch> sweep(const Output *asked = nullptr, LevelBefore *level_before = nullptr,
                                         std::shared_ptr<const Branch> look = nullptr) const;
     /// The same, recorded, so that it can be stopped and go on later: with this recorder of that branch.
     std::shared_ptr<const Branch> sweep(CurveRecorder &recorder) const;

@@ -1,19 +1,15 @@
 // What a step of Newton's method for an exact motion costs (a run of the flow over the period, the monodromy,
 // a factorization), what the cost model of motion = auto takes it for, and what it chooses: medians at the
 // highest point of the scenes' curves. Not a test: prints Markdown.
-#include "capi/handles.hpp"
 #include "hbm/make_system.hpp"
 #include "median.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
 #include "orbits/orbit_points.hpp"
+#include "scene_basis.hpp"
 #include "searches/hbm.hpp"
 #include "searches/motion_choice.hpp"
-extern "C" {
-#include "scene.h"
-#include "scene_model.h"
-}
 #include <chrono>
 #include <cstdio>
 #include <functional>
@@ -83,28 +79,15 @@ void print_row(const char *name, const Model &model, const plm::HbmOptions &opti
 }
 
 void run(const char *scene_name, const char *size, bool preload) {
-    plm_context *context = nullptr;
-    scene *host = nullptr;
-    plm_model *model = nullptr;
-    plm_sampler *sampler = nullptr;
-    plm_basis *basis = nullptr;
-    must(nullptr, plm_context_create(PLM_API_VERSION, &context), "context");
-    if (scene_create(scene_name, size, preload, &host)) return;
-    must(context, scene_to_model(context, host, &model), "model");
-    must(context, plm_sampler_create(model, &sampler), "sampler");
-    must(context, plm_sampler_run(sampler), "sampler");
-    must(context, plm_basis_create(model, &basis), "basis");
-    must(context, plm_basis_set_sampler(basis, sampler), "basis");
-    must(context, plm_basis_build(basis), "basis");
-    const auto core = plm::capi::find<plm::capi::BasisHandle>(basis)->core;
+    const SceneBasis made(scene_name, size, preload);
+    const auto core = made.core;
+    if (!core) return;
     plm::HbmOptions options;
     options.frequency_min_hz = core->window_min_hz();
     options.frequency_max_hz = core->window_max_hz();
     char name[80];
     std::snprintf(name, sizeof name, "%s, %s%s", scene_name, size, preload ? ", pre-load" : "");
     print_row(name, core->reduced(), options);
-    scene_destroy(&host);
-    plm_context_destroy(&context);
 }
 
 } // namespace

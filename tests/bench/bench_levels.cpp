@@ -3,13 +3,9 @@
 // peak of each against that of a sweep of it alone.
 //     bench_levels [SCENE [quick|paper [no-preload] [check] [log] [exact|harmonics] [LEVEL ...]]]
 // LEVEL: the highest one, 1 unless it is given. Not a test: prints Markdown.
-#include "capi/handles.hpp"
 #include "linalg/work.hpp"
+#include "scene_basis.hpp"
 #include "searches/hbm.hpp"
-extern "C" {
-#include "scene.h"
-#include "scene_model.h"
-}
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -121,26 +117,13 @@ int main(int n, char **argument) {
         if (word == "harmonics") b.options.motion = plm::MotionKind::harmonics;
         if (const double level = std::strtod(argument[i], nullptr); level > 0) highest = level;
     }
-    plm_context *context = nullptr;
-    scene *host = nullptr;
-    plm_model *model = nullptr;
-    plm_sampler *sampler = nullptr;
-    plm_basis *basis = nullptr;
-    if (scene_create(name, size, with_preload, &host)) {
+    const SceneBasis made(name, size, with_preload);
+    if (!made.core) {
         std::fprintf(stderr, "no scene %s, %s\n", name, size);
         return 1;
     }
-    must(nullptr, plm_context_create(PLM_API_VERSION, &context), "context");
-    must(context, scene_to_model(context, host, &model), "model");
-    must(context, plm_sampler_create(model, &sampler), "sampler");
-    must(context, plm_sampler_run(sampler), "sampler");
-    must(context, plm_basis_create(model, &basis), "basis");
-    must(context, plm_basis_set_sampler(basis, sampler), "basis");
-    must(context, plm_basis_build(basis), "basis");
-    b.basis = plm::capi::find<plm::capi::BasisHandle>(basis)->core;
-    b.dof = host->output_dof;
+    b.basis = made.core;
+    b.dof = made.host->output_dof;
     run(b, highest, check);
-    plm_context_destroy(&context);
-    scene_destroy(&host);
     return 0;
 }

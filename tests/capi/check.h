@@ -21,8 +21,8 @@ int refused(plm_context *ctx, plm_status got, plm_status want, const char *funct
 /* |got - want| <= relative |want|, printed when not */
 int close_to(double got, double want, double relative);
 
-/* 1, or where a sanitizer watches, which takes ten times as long, `watched`: how far a loop goes on to its next
- * case, where all cases take the same paths through the library. */
+/* 1, or where a sanitizer watches, which takes ten times as long, `watched`: how far a loop goes on to its
+ * next case, where all cases take the same paths through the library. */
 int next_case(int watched);
 
 /* the larger one; NaN when one of them is, which fmax() would lose */

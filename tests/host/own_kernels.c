@@ -1,4 +1,5 @@
-/* The OpenBLAS that a self-contained libplm carries takes the widest kernels that it has for the processor. */
+/* The OpenBLAS that a self-contained libplm carries takes the widest kernels that it has for the processor.
+ */
 #include "check_host.h"
 #include <plm/plm.h>
 #include <string.h>

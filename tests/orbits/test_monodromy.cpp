@@ -1,8 +1,8 @@
 // The monodromy matrix of a given sequence of contact sets: against finite differences of the flow,
 // Liouville's theorem, and what is known of single systems.
 #include "flows.hpp"
-#include "orbits/recorded_motion.hpp"
 #include "orbits/orbit_work.hpp"
+#include "orbits/recorded_motion.hpp"
 #include <chrono>
 
 using namespace test;

@@ -327,7 +327,7 @@ double error_of_work(const std::shared_ptr<const plm::FlowModel> &model) {
         by_coefficient += flow.period() * (load.real[j] * q(j, 0) - load.imag[j] * q(j, 1));
     plm::ContactModesKept modes(model);
     const double work =
-        plm::orbit_work(model, start, omega, 1, shown.history.intervals(), load, 2 * omega, modes);
+        plm::orbit_work(*model, start, omega, 1, shown.history.intervals(), load, 2 * omega, modes);
     return std::abs(work - by_coefficient) / std::abs(by_coefficient);
 }
 void modes_know_the_work(void **) {
