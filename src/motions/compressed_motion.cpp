@@ -87,21 +87,17 @@ class HarmonicAnswer {
     // By the forces p of the springs: (1 + S B D^-1 B^T) p = S B D^-1 f, f - B^T p = D x.
     void solve_by_forces(const vector<complex> &d, vector<complex> &f) {
         const std::int64_t r = m_.size(), z = m_.gap.rows();
+        vector<double> real(r), imag(r);
         vector<complex> a(static_cast<std::size_t>(z * z)), p(z);
         for (std::int64_t j = 0; j < r; ++j) {
-            const double *b = m_.gap.col(j);
             const complex receptance = 1.0 / d[j];
-            for (std::int64_t k = 0; k < z; ++k) {
-                const complex one = receptance * b[k];
-                p[k] += one * f[j];
-                for (std::int64_t i = 0; i <= k; ++i) a[i + k * z] += one * b[i];
-            }
+            real[j] = receptance.real(), imag[j] = receptance.imag();
+            for (std::int64_t k = 0; k < z; ++k) p[k] += receptance * f[j] * m_.gap(k, j);
         }
-        for (std::int64_t k = 0; k < z; ++k)
-            for (std::int64_t i = 0; i < k; ++i) a[k + i * z] = a[i + k * z];
+        const Matrix in_phase = gaps_by(real), lagging = gaps_by(imag);
         for (std::int64_t k = 0; k < z; ++k)
             for (std::int64_t i = 0; i < z; ++i)
-                a[i + k * z] = spring_[i] * a[i + k * z] + (i == k ? 1.0 : 0.0);
+                a[i + k * z] = spring_[i] * complex(in_phase(i, k), lagging(i, k)) + (i == k ? 1.0 : 0.0);
         for (std::int64_t i = 0; i < z; ++i) p[i] *= spring_[i];
         lu_.factor(z, a);
         lu_.solve(p.data(), 1, z);
@@ -109,6 +105,14 @@ class HarmonicAnswer {
             for (std::int64_t i = 0; i < z; ++i) f[j] -= m_.gap(i, j) * p[i];
             f[j] /= d[j];
         }
+    }
+
+    // B diag(weight) B^T.
+    Matrix gaps_by(const vector<double> &weight) const {
+        Matrix weighted = m_.gap;
+        for (std::int64_t j = 0; j < weighted.cols(); ++j)
+            for (std::int64_t i = 0; i < weighted.rows(); ++i) weighted(i, j) *= weight[j];
+        return product('N', 'T', weighted, m_.gap);
     }
 
     void solve_coupled(double omega, const vector<complex> &d, vector<complex> &f) {

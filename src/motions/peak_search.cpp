@@ -13,8 +13,10 @@ constexpr double least_tolerance = 1e-12; // rounding of a period of the flow
 bool PeakSearch::run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
     for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
     set_chord();
-    above_ = rise(); // until it is looked for more closely
-    if (!is_exact() && !solve_triple()) return false;
+    if (!is_exact() && !solve_triple()) {
+        above_ = rise();
+        return false;
+    }
     const bool settled = close_in();
     const Sample &top = *std::max_element(
         three_.begin(), three_.end(), [](const auto &a, const auto &b) { return a.amplitude < b.amplitude; });

@@ -6,6 +6,7 @@
 #include "motions/options.hpp"
 #include "motions/periodic_equations.hpp"
 #include <array>
+#include <cmath>
 
 namespace plm {
 
@@ -21,8 +22,8 @@ class PeakSearch {
     /// equations, nor near one.
     bool run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest);
 
-    /// By how much the peak may be higher than the point found, of that: 0 where it was closed in upon. The
-    /// parabola may miss a sharp top by as much as it rises.
+    /// By how much the peak may be higher than the point found, of that: 0 where it was closed in upon, NaN
+    /// before run() came to its end. The parabola may miss a sharp top by as much as it rises.
     double above() const { return 2 * above_; }
 
   private:
@@ -51,7 +52,7 @@ class PeakSearch {
     std::array<Sample, 3> three_;
     Metric metric_;
     PathState origin_, chord_; // the latter of length 1
-    double first_ = 0, last_ = 1, span_ = 1, above_ = 0;
+    double first_ = 0, last_ = 1, span_ = 1, above_ = NAN;
 };
 
 } // namespace plm

@@ -119,8 +119,8 @@ bool CurveCompression::settle(const std::shared_ptr<const ReducedModel> &model, 
     const double now = amplitude(model, exact);
     if (point.amplitude >= 0) point.change = std::abs(now - point.amplitude) / peak_;
     point.amplitude = now;
-    point.needs = needs_at(*model, exact);
     point.motion = corrected_on_whole(*model, exact);
+    point.needs = needs_beside(*model, exact, point.motion);
     point.exact = std::move(exact);
     return true;
 }
@@ -237,10 +237,15 @@ void CurveCompression::go_on(const HbmOptions &options, const Branch &curve) {
 
 CurveCompression::Needs CurveCompression::needs_at(const ReducedModel &model,
                                                    const BranchPoint &exact) const {
+    return needs_beside(model, exact, model.from ? corrected_on_whole(model, exact) : exact);
+}
+
+CurveCompression::Needs CurveCompression::needs_beside(const ReducedModel &model, const BranchPoint &exact,
+                                                       const BranchPoint &corrected) const {
     Needs needs;
     needs.springs.push_back(mean_springs(model, exact));
     take(uncompressed(model, exact), needs.motions);
-    if (model.from) take(corrected_on_whole(model, exact), needs.motions);
+    if (model.from) take(corrected, needs.motions);
     return needs;
 }
 

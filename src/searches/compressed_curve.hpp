@@ -101,6 +101,8 @@ class CurveCompression {
                 const BranchPoint &there, double amplitude_on_curve, double error) const;
     void compare_with_whole(const Branch &curve);
     Needs needs_at(const ReducedModel &model, const BranchPoint &exact) const;
+    Needs needs_beside(const ReducedModel &model, const BranchPoint &exact,
+                       const BranchPoint &corrected) const;
     bool grow_to(double enough, const Branch &curve);
     bool grow_at(const ReducedModel &model, const BranchPoint &point);
     bool find_on_whole(const Branch &curve, std::int64_t point, BranchPoint &found);

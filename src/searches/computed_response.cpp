@@ -65,24 +65,33 @@ class Chain {
         if (can_improve(best)) take_better(best, [&](ComputedResponse &next) { refine_from(best, next); });
     }
 
-    // However little was allowed, there is an answer: a whole curve by few harmonics, where that tells of a
-    // larger motion than part of a better one.
+    // However little was allowed, there is an answer: part of a good curve, or a whole one by few harmonics
+    // where that is worth more.
     void take_first_curve(const std::shared_ptr<const Basis> &smallest, ComputedResponse &best) {
         if (!best.curve || was_stopped(*best.curve)) spent_ = true;
+        ComputedResponse first;
         const auto look = [&] {
-            const auto basis = look_ ? look_basis_ : smallest;
-            const auto first = look_ ? look_ : curve_of_few_harmonics(*smallest);
-            if (!best.curve || (is_whole(*first) && says_more(*first, *best.curve, watch_)))
-                best = with_curve(basis, first);
+            first = look_ ? with_curve(look_basis_, look_)
+                          : with_curve(smallest, curve_of_few_harmonics(*smallest));
         };
         unless_there_is(best, [&] { within(EffortBudget::first_curve, look); });
-        if (!best.curve)
+        if (!best.curve && !first.curve)
             throw Error(status::cancelled,
                         "no periodic response was found with the effort allowed; raise the effort "
                         "of the context")
                 .reason(reason::effort);
         const Effort little(EffortBudget::first_curve);
-        if (is_cut(best)) find_peak(best);
+        if (best.curve && is_cut(best)) find_peak(best);
+        if (!first.curve || (best.curve && !is_whole(*first.curve))) return;
+        find_peak(first);
+        if (!best.curve || is_worth_more(first, best)) best = std::move(first);
+    }
+
+    // Where it tells of a larger motion, or of none beyond its own error: then that is known, and what part
+    // of a curve leaves out is not.
+    bool is_worth_more(const ComputedResponse &first, const ComputedResponse &part) const {
+        const double highest = (1 + whole_error(first)) * first.peak.amplitude; // NaN: not known
+        return highest >= part.peak.amplitude || says_more(*first.curve, *part.curve, watch_);
     }
 
     // What finds nothing is no failure where there is an answer already.

@@ -67,9 +67,10 @@ class CloserLook {
     const BranchPoint &point() const { return point_; }
     double harmonic_error() const { return error_; }
     bool seen_in_time() const { return in_time_; }
-    /// As PeakSearch; where none was begun, by how much the lower neighbour is lower: a parabola rises less.
+    /// As PeakSearch; where none came to its end, by how much the lower neighbour is lower: a parabola rises
+    /// less.
     double above() const {
-        if (search_) return search_->above();
+        if (search_ && !std::isnan(search_->above())) return search_->above();
         const auto height = [&](int k) {
             return branch_.amplitude(around_[k], of_.dof, of_.measure, of_.harmonic);
         };

@@ -172,15 +172,35 @@ void AttachmentBasis::begin(const vector<std::int64_t> &directions) {
 void AttachmentBasis::advance(const vector<std::int64_t> &directions) {
     vector<std::int64_t> columns;
     for (std::int64_t i : directions) columns.push_back(at_[i]);
-    Field momenta = appended(frontier_.columns(columns));
-    const Field next = next_power(std::move(momenta));
-    Matrix coupling = forces_.products(next);
-    for (std::int64_t k = 0; k < coupling.rows() * coupling.cols(); ++k) coupling.data()[k] /= reach_;
-    coupling_.append(coupling);
+    const Field next = append_with_coupling(frontier_.columns(columns));
     for (std::size_t k = 0; k < columns.size(); ++k) {
         frontier_.put(columns[k], next.columns(static_cast<std::int64_t>(k), 1));
         ++power_[directions[k]];
     }
+}
+
+// Returns the next power.
+Field AttachmentBasis::append_with_coupling(const Field &y) {
+    Field next = next_power(appended(y));
+    Matrix coupling = forces_.products(next);
+    for (std::int64_t k = 0; k < coupling.rows() * coupling.cols(); ++k) coupling.data()[k] /= reach_;
+    coupling_.append(coupling);
+    return next;
+}
+
+Field AttachmentBasis::add_responses(Field forces, double least) {
+    responses_->modes->take_from_forces(forces);
+    Field y = forces;
+    respond_outside(*structure_, *responses_->modes, y);
+    const SymmetricEigen e = symmetric_eigen(gram(forces, y)); // ascending
+    const std::int64_t n = y.cols(),
+                       left = std::upper_bound(e.values.begin(), e.values.end(), least) - e.values.begin();
+    y = plm::combine(y, e.vectors.columns(left, n - left));
+    if (y.cols() > 0) {
+        append_with_coupling(y);
+        rayleigh_ritz();
+    }
+    return y;
 }
 
 // reach A^-1 times momenta M Y: of the order of Y where that is slow.

@@ -25,6 +25,10 @@ class AttachmentBasis {
     /// `most` powers, is reached. False: there were none.
     bool refine(AskedError asked, std::int64_t most, Watch watch);
 
+    /// Adds the responses to these forces, but for combinations of them of no more energy than `least`, and
+    /// returns what it added.
+    Field add_responses(Field forces, double least);
+
     /// What would be left out after refine(), the sums over all directions: many leave out next to nothing,
     /// and together more than the slowest.
     AskedError left_after(AskedError asked, std::int64_t most) const;
@@ -54,6 +58,7 @@ class AttachmentBasis {
     void advance(const vector<std::int64_t> &directions);
     Field next_power(Field momenta) const;
     Field appended(const Field &y);
+    Field append_with_coupling(const Field &y);
 
     std::shared_ptr<const Structure> structure_;
     std::shared_ptr<const StaticResponses> responses_;

@@ -38,6 +38,7 @@ class ContactSpaceBuilder {
         exact_modes();
         watch_.step("contact space", 0.4);
         AttachmentBasis attached(model_, responses_, highest_ > 0 ? highest_ * highest_ + sigma_ : 0);
+        if (highest_ > 0) add_damping(attached);
         if (highest_ > 0) refine(attached);
         assemble(attached);
         return space_;
@@ -48,6 +49,30 @@ class ContactSpaceBuilder {
         double contact = 0, loads = 0; // of contact forces, and of the excitation
         double worst() const { return std::max(contact, loads); }
     };
+
+    // Dampers and damped layers pull the modes out of shape: by what the structure answers to their forces,
+    // C times the modes, then C and M times these answers. Of proportional damping that is nothing. The share
+    // of a mode's energy in an answer is what its frequency and damping are wrong by without it.
+    void add_damping(AttachmentBasis &attached) const {
+        if (!model_->damping().has_matrix) return;
+        const SpaceOptions &options = model_->space_options();
+        const vector<double> &values = responses_->modes->values;
+        const double square = highest_ * highest_ + sigma_;
+        const auto n = std::upper_bound(values.begin(), values.end(), square) - values.begin();
+        for (std::int64_t first = 0; first < n; first += solved_at_once) {
+            const std::int64_t some = std::min<std::int64_t>(solved_at_once, n - first);
+            const Field modes = responses_->modes->vectors.columns(first, some);
+            Field moves = attached.add_responses(model_->damping_times(modes), options.tolerance);
+            for (std::int64_t block = 1; block < options.max_blocks && moves.cols() > 0; ++block) {
+                watch_.step("contact space", 0.45);
+                Field forces = model_->damping_times(moves), inertia = model_->mass_times(moves);
+                forces.scale(vector<double>(forces.cols(), std::sqrt(square)));
+                inertia.scale(vector<double>(inertia.cols(), square));
+                forces.append(inertia);
+                moves = attached.add_responses(std::move(forces), options.tolerance);
+            }
+        }
+    }
 
     void refine(AttachmentBasis &attached) {
         const SpaceOptions &options = model_->space_options();
