@@ -26,6 +26,11 @@ struct LargerMotion {
     double force_low = 0, force_high = 0;
 };
 
+/// What the structure comes to in time where the curve has no stable motion.
+struct MotionInTime {
+    double frequency_hz = 0, amplitude = 0; // largest over a period
+};
+
 /// What calls have found of one amplitude of a curve beside its points.
 struct CurveFindings {
     Output output;

@@ -191,6 +191,58 @@ std::int64_t highest_stable(const Branch &curve, const Output &of) {
     return best;
 }
 
+namespace {
+
+// Beyond a fold the structure goes to the stable motions beside it.
+bool is_saddle(const BranchPoint &p) {
+    return std::all_of(p.multipliers.begin(), p.multipliers.end(),
+                       [](const auto &m) { return std::abs(m) <= 1 || (m.real() > 0 && m.imag() == 0); });
+}
+
+bool has_stable_motion(const Branch &curve, double omega) {
+    const std::vector<BranchPoint> &points = curve.points();
+    for (std::size_t k = 1; k < points.size(); ++k)
+        if ((points[k - 1].omega - omega) * (points[k].omega - omega) <= 0 &&
+            std::max(stability_of(points[k - 1]), stability_of(points[k])) == 1)
+            return true;
+    return false;
+}
+
+} // namespace
+
+vector<std::int64_t> left_for_others(const Branch &curve) {
+    vector<std::int64_t> found;
+    for (std::size_t i = 0; i < curve.points().size(); ++i) {
+        const BranchPoint &p = curve.points()[i];
+        if (stability_of(p) == 0 && (!is_saddle(p) || !has_stable_motion(curve, p.omega)))
+            found.push_back(static_cast<std::int64_t>(i));
+    }
+    return found;
+}
+
+namespace {
+
+// Whether stable motions end at a fold beside the peak, hardly lower: then the structure comes as far. Beyond
+// any other bifurcation the stable motions that come out of it may be larger.
+bool is_beside_a_fold(const Branch &curve, const Output &of, double least) {
+    const std::vector<BranchPoint> &points = curve.points();
+    const std::int64_t top = curve.highest_point(of.dof, of.measure, of.harmonic),
+                       n = static_cast<std::int64_t>(points.size());
+    for (const std::int64_t step : {-1, 1})
+        for (std::int64_t i = top; i >= 0 && i < n; i += step) {
+            const BranchPoint &p = points[static_cast<std::size_t>(i)];
+            if (curve.amplitude(i, of.dof, of.measure, of.harmonic) < least) break;
+            if (stability_of(p) == 1) return true;
+            if (p.bifurcation == bifurcation::fold &&
+                ends_stable_motions(points, static_cast<std::size_t>(i)))
+                return true;
+            if (p.bifurcation != bifurcation::none) break;
+        }
+    return false;
+}
+
+} // namespace
+
 void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak) {
     const BranchPoint &top = peak.points()[0];
     const std::int64_t is_stable = stability_of(top);
@@ -198,7 +250,7 @@ void check_stability(const Branch &curve, const Output &of, double accuracy, Wat
     const double height = peak.amplitude(0, of.dof, of.measure, of.harmonic);
     const std::int64_t stable = highest_stable(curve, of);
     const double known = stable < 0 ? 0 : curve.amplitude(stable, of.dof, of.measure, of.harmonic);
-    if (known >= (1 - accuracy) * height) return;
+    if (is_beside_a_fold(curve, of, (1 - accuracy) * height)) return;
     const std::string instead =
         stable < 0 ? "No motion of the curve is known to be stable"
                    : format("The highest stable motion of the curve is %.6g, at %.6g Hz", known,

@@ -27,8 +27,11 @@ void check_top(double accuracy, double above, Watch watch, Branch &peak);
 /// The highest point of a curve that is stable, or where stable motions end; -1: none.
 std::int64_t highest_stable(const Branch &curve, const Output &of);
 
-/// A peak whose motion is not stable is not what the structure does, unless a motion of the curve is stable
-/// and as high within the accuracy (that beside a fold, for one).
+/// The unstable points that the structure need not leave for a stable motion of the curve.
+vector<std::int64_t> left_for_others(const Branch &curve);
+
+/// A peak whose motion is not stable is not what the structure does, unless stable motions end at a fold
+/// beside it, as high within the accuracy (that beside a fold, for one).
 void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak);
 
 /// Where a host's own reduction (a superelement) takes more than its share (error_budget.hpp), no basis can

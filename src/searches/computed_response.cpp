@@ -219,6 +219,8 @@ class Chain {
         if (!std::isfinite(r.error) || !is_known || r.peak.branch->warnings.has(reason::no_peak))
             r.error = NAN;
         if (r.larger) watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.larger, known(r)));
+        if (r.in_time)
+            watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.in_time, known(r)));
         if (spent_ && !(r.error <= options_.accuracy))
             r.warnings.add(
                 reason::effort,
@@ -232,8 +234,11 @@ class Chain {
     }
 
     void look_beside(ComputedResponse &r) const {
-        r.looked_beside = within(effort_left(), [&] { r.larger = find_larger_motion(known(r), watch_); });
-        if (!r.looked_beside)
+        within(effort_left(), [&] { r.in_time = find_larger_in_time(known(r), watch_); });
+        const bool all = within(effort_left(), [&] { r.larger = find_larger_motion(known(r), watch_); });
+        r.looked_beside =
+            all && !r.basis->reduced()->whole_contact().moves(); // then resonances do not show it
+        if (!all)
             watch_.log(1, "the effort allowed was spent in the search for larger motions beside the curve");
     }
 

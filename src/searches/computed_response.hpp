@@ -12,8 +12,9 @@ struct ComputedResponse {
     HbmOptions options; // of the curve
     std::shared_ptr<const Branch> curve;
     Peak peak;
-    std::optional<LargerMotion> larger; // beside the curve
-    bool looked_beside = false;         // for one, to the end
+    std::optional<LargerMotion> larger;  // beside the curve
+    bool looked_beside = false;          // for one, to the end
+    std::optional<MotionInTime> in_time; // larger than the peak
     /// Of the peak, relative: by the basis, as estimated, and what the host states of its own reduction; NaN:
     /// not known, or the curve ended early.
     double error = 0;
