@@ -21,7 +21,7 @@ esac
 
 # shellcheck disable=SC2086,SC2154
 need_packages $plm_build_packages gfortran pkg-config libcmocka-dev python3 python3-numpy python3-scipy \
-    python3-matplotlib python3-h5py python3-meshio python3-vtk9 xvfb xauth python3-pip calculix-ccx abigail-tools valgrind mkdocs libopenmpi-dev openmpi-bin libmumps-dev clang libclang-rt-dev libc++-dev libc++abi-dev make ccache
+    python3-matplotlib python3-h5py python3-meshio python3-vtk9 xvfb xauth octave python3-pip calculix-ccx abigail-tools valgrind mkdocs libopenmpi-dev openmpi-bin libmumps-dev clang libclang-rt-dev libc++-dev libc++abi-dev make ccache
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
