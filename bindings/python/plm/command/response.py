@@ -9,7 +9,6 @@ from .._errors import PlmError
 from .._functions import NOT_CONVERGED, TRUNCATED
 from .._reduction import Basis, Sampler
 from .._response import Hbm
-from .console import in_words_of_the_command
 from .report import write_report
 from .response_files import write_files
 from .saving import SavedCurve
@@ -40,7 +39,7 @@ def run(settings, console, resumes=False):
     if not found.error <= settings["accuracy"]:
         console.warn("the error of the peak is " + (f"estimated to be {found.error:.1e}, more than the accuracy asked for, "
                      f"{settings['accuracy']:g}" if math.isfinite(found.error) else "not known"))
-    page = page_of(found.curve, dof, structure.name_of(dof))
+    page = console.in_words(found.curve.describe())
     console.say(page.rstrip("\n"))
     if settings["out"]:
         with console.listening():
@@ -49,11 +48,6 @@ def run(settings, console, resumes=False):
         write_report(pathlib.Path(settings["out"]) / "report.md", settings_text("response", settings), page, console, structure.unread,
                      files)
         console.say(f"\nFiles\n  report.md, {', '.join(files)} in {settings['out']}")
-
-
-def page_of(curve, dof, name):
-    """The library's page about a curve, in the words of the command and with the node in place of the DOF."""
-    return in_words_of_the_command(curve.describe()).replace(f"DOF {dof} (counted from 0)", name)
 
 
 def output_dof(structure, settings):
