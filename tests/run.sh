@@ -1,7 +1,7 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       preset dev with half a minute of each fuzzer, of asan the C API and hosts with half a minute of
+#     sh tests/run.sh --all       preset dev with a minute of each fuzzer, of asan the C API and hosts with half a minute of
 #                                 scenarios drawn by chance, and of tsan, permissive and release what differs there from dev (all
 #                                 of one, or asserting and libcxx: name it). dev is compiled as release is, so that the three share objects
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
@@ -80,7 +80,7 @@ for preset; do
         options=-DPLM_UNITY=ON # several files at once where all is built from nothing
         PLM_FUZZ_SECONDS=5 PLM_SCENARIO_SECONDS=10
         case $preset in
-        dev) options="$options -DCMAKE_BUILD_TYPE=Release" PLM_FUZZ_SECONDS=30 ;;
+        dev) options="$options -DCMAKE_BUILD_TYPE=Release" PLM_FUZZ_SECONDS=60 ;;
         asan) PLM_SCENARIO_SECONDS=30 ;;
         esac
         export PLM_FUZZ_SECONDS PLM_SCENARIO_SECONDS
