@@ -41,8 +41,12 @@ class SearchBeside {
         options_.max_points = points_;
     }
 
+    void take(const IsolatedBranch &found) {
+        if (take(found.branch)) best_->force_low = found.birth_force, best_->force_high = found.merge_force;
+    }
+
     void run() {
-        if (curve_.beside) take(curve_.beside, nullptr);
+        if (curve_.beside) take(curve_.beside);
         if (points_ < least_points || !is_held_apart()) return;
         if (reduced_->whole_contact().moves()) return; // the phase against the force is none of resonance
         std::vector<BranchPoint> starts =
@@ -171,30 +175,32 @@ class SearchBeside {
             settle_harmonics(reduced_, o, start, watch_.quiet());
         else if (!make_exact_nearest(reduced_, o, start, work))
             return;
-        take(trace_through(reduced_, o, start, watch_.quiet()), &crossing);
+        if (!take(trace_through(reduced_, o, start, watch_.quiet()))) return;
+        best_->force_low = force_at(crossing.lowest, ForceExtremum::centre);
+        best_->force_high = force_at(crossing.highest, ForceExtremum::saddle);
     }
 
     // The highest stable motion of a curve as the best so far, if it is that.
-    void take(const std::shared_ptr<const Branch> &curve, const Crossing *crossing) {
+    bool take(const std::shared_ptr<const Branch> &curve) {
         const Output &of = known_.output;
         const std::int64_t top = highest_stable(*curve, of);
-        if (top < 0 || !is_larger(amplitude(*curve, top))) return;
+        if (top < 0 || !is_larger(amplitude(*curve, top))) return false;
         LargerMotion m;
+        m.force_low = m.force_high = NAN;
         m.curve = curve;
         m.amplitude = amplitude(*curve, top);
         BranchPoint point = curve->points()[static_cast<std::size_t>(top)];
         const Peak peak = Hbm(known_.basis, known_.options, watch_.quiet())
                               .find_peak(*curve, of.dof, of.measure, of.harmonic);
-        if (peak.branch->warnings.has(reason::no_contraction)) return; // it need not be near a solution
+        if (peak.branch->warnings.has(reason::no_contraction)) return false; // it need not be near a solution
         if (stability_of(peak.branch->points()[0]) == 1) {
             m.amplitude = peak.amplitude;
             point = peak.branch->points()[0];
         }
         m.frequency_hz = point.omega / (2 * M_PI);
-        if (!is_on_basis(curve->reduced_model(), point, m.amplitude)) return;
-        m.force_low = crossing ? force_at(crossing->lowest, ForceExtremum::centre) : NAN;
-        m.force_high = crossing ? force_at(crossing->highest, ForceExtremum::saddle) : NAN;
+        if (!is_on_basis(curve->reduced_model(), point, m.amplitude)) return false;
         best_ = std::move(m);
+        return true;
     }
 
     // Whether the basis has a stable motion of a compressed model, too.
@@ -228,17 +234,30 @@ class SearchBeside {
     std::optional<LargerMotion> &best_;
 };
 
-} // namespace
-
-std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch) {
+template <class Work>
+std::optional<LargerMotion> searched(const KnownResponse &known, Watch watch, Work work) {
     std::optional<LargerMotion> best;
     try {
-        SearchBeside(known, watch, best).run();
+        SearchBeside search(known, watch, best);
+        work(search);
     } catch (const Error &e) { // what there is already is an answer
         if (e.status() == status::cancelled || e.status() == status::memory) throw;
         watch.log(1, std::string("the search beside the curve ended early: ") + e.what());
     }
     return best;
+}
+
+} // namespace
+
+std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch) {
+    return searched(known, watch, [](SearchBeside &search) { search.run(); });
+}
+
+std::optional<LargerMotion> largest_of(const std::vector<IsolatedBranch> &found, const KnownResponse &known,
+                                       Watch watch) {
+    return searched(known, watch, [&](SearchBeside &search) {
+        for (const IsolatedBranch &one : found) search.take(one);
+    });
 }
 
 std::string words_for(const LargerMotion &larger, const KnownResponse &known) {

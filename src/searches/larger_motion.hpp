@@ -5,6 +5,7 @@
 #pragma once
 #include "reduction/basis.hpp"
 #include "searches/hbm.hpp"
+#include "searches/isolated.hpp"
 
 namespace plm {
 
@@ -21,6 +22,10 @@ struct KnownResponse {
 /// much for its own curve; none: no larger one, or none that is stable. Each was solved on the basis itself,
 /// and lies near a solution of the whole structure where that can be told.
 std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch);
+
+/// The same of curves that were found beside it already.
+std::optional<LargerMotion> largest_of(const std::vector<IsolatedBranch> &found, const KnownResponse &known,
+                                       Watch watch);
 
 /// What is said of it.
 std::string words_for(const LargerMotion &larger, const KnownResponse &known);
