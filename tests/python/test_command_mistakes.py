@@ -104,6 +104,8 @@ class Mistakes(Folder):
                                        "motion of DOF 1 (counted from 0); x.inp:3: plm_model_build: DOFs 0, 1, ...", lambda dof: f"node {10 + dof} y")
         self.assertEqual(said, "it ended. Raise --effort (0: no limit) (the first: node 10 y), of node 10 y and node 11 y: motion of node 11 y; "
                          "x.inp:3: node 10 y, node 11 y, ...")
+        self.assertEqual(in_words_of_the_command('name it ("mode" or "mode_frequency_hz")'),
+                         "name it by --frequency-min-hz and --frequency-max-hz around it")
         out, _ = self.here("audit", self.path("case.toml"))
         self.assertIn("motion of node 20 x in its positive direction closes pair 0", out)
         empty = "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 1 1e4\n"

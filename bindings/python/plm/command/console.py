@@ -27,6 +27,7 @@ _WORDS = (("raise the effort of the context", "raise --effort (0: no limit)"),
           (r"spent before there was a result; raise effort", "spent before there was a result; raise --effort (0: no limit)"),
           (r"window_min_hz and window_max_hz of a sampler|\(frequency_min_hz, frequency_max_hz\)",
            "--frequency-min-hz and --frequency-max-hz"),
+          (r'\("mode"\s+or\s+"mode_frequency_hz"\)', "by --frequency-min-hz and --frequency-max-hz around it"),
           ("were not looked for: find_isolated and find_by_marching do", "were not looked for; without a range they are"))
 _FUNCTION = r"\bplm_[a-z0-9_]+: "  # which refused or warned: nothing that the command's user has called
 _DOFS = r"\bDOFs? (\d+(?:(?:, | and )\d+)*)(?:\s+\(counted\s+from\s+0\)|,\s+counted\s+from\s+0(?=\)))?"

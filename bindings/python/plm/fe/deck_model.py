@@ -84,12 +84,15 @@ class _naming:
     def __exit__(self, kind, error, trace):
         self._catching.__exit__(kind, error, trace)
         for one in self._issued:
-            of_plm = isinstance(one.message, PlmWarning)
-            warnings.warn(PlmWarning(f"{self._record.file}:{self._record.line}: {self._in_labels(one.message)}", one.message.status,
-                                     one.message.reason) if of_plm else one.message, stacklevel=5)
+            warnings.warn(self._in_place(one.message), stacklevel=5)
         if isinstance(error, PlmError):
             raise FileError(self._record.file, self._record.line, self._in_labels(error)) from error
         return False
+
+    def _in_place(self, warning):
+        if not isinstance(warning, PlmWarning):
+            return warning
+        return PlmWarning(f"{self._record.file}:{self._record.line}: {self._in_labels(warning)}", warning.status, warning.reason)
 
     def _in_labels(self, text):
         return re.sub(r"\bnode (\d+) \(counted from 0\)", lambda found: f"node {self._nodes[int(found[1])]}" if len(self._nodes) else found[0],
