@@ -46,9 +46,9 @@ std::optional<plm::LargerMotion> keep_beside(const HbmHandle &h, const BranchHan
                                              const plm::IsolatedSearch &search) {
     if (!curve.found) return {};
     const plm::CurveFindings &known = *curve.found;
-    curve.found->larger = plm::largest_of(
-        search.branches, {built(*h.basis), h.hbm_options, curve.core, known.peak.amplitude, known.output},
-        h.owner->watch());
+    curve.found->larger = plm::find_larger_motion(
+        {built(*h.basis), h.hbm_options, curve.core, known.peak.amplitude, known.output}, h.owner->watch(),
+        &search.branches);
     curve.found->looked_beside = plm::effort_left() > 0;
     return curve.found->larger;
 }
@@ -75,10 +75,10 @@ plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double f
         const plm::IsolatedSearch search = solver(h).find_isolated(*curve->core, force_max);
         const std::optional<plm::LargerMotion> larger = keep_beside(h, *curve, search);
         std::vector<FoundBranch> found;
-        for (const plm::IsolatedBranch &b : search.branches) {
-            const bool is_first = larger && b.branch == larger->curve;
-            found.insert(is_first ? found.begin() : found.end(), {b.branch, b.birth_force, b.merge_force});
-        }
+        if (larger) found.push_back({larger->curve, larger->force_low, larger->force_high});
+        for (const plm::IsolatedBranch &b : search.branches)
+            if (!larger || b.branch != larger->curve)
+                found.push_back({b.branch, b.birth_force, b.merge_force});
         const plm_status status = keep_found(h, std::move(found), count);
         h.larger = larger;
         return status;

@@ -41,12 +41,13 @@ class SearchBeside {
         options_.max_points = points_;
     }
 
-    void take(const IsolatedBranch &found) {
-        if (take(found.branch)) best_->force_low = found.birth_force, best_->force_high = found.merge_force;
-    }
-
-    void run() {
+    void run(const std::vector<IsolatedBranch> *found) {
         if (curve_.beside) take(curve_.beside);
+        if (found) {
+            for (const IsolatedBranch &b : *found)
+                if (take(b.branch)) best_->force_low = b.birth_force, best_->force_high = b.merge_force;
+            return;
+        }
         if (points_ < least_points || !is_held_apart()) return;
         if (reduced_->whole_contact().moves()) return; // the phase against the force is none of resonance
         std::vector<BranchPoint> starts =
@@ -185,10 +186,7 @@ class SearchBeside {
         const Output &of = known_.output;
         const std::int64_t top = highest_stable(*curve, of);
         if (top < 0 || !is_larger(amplitude(*curve, top))) return false;
-        LargerMotion m;
-        m.force_low = m.force_high = NAN;
-        m.curve = curve;
-        m.amplitude = amplitude(*curve, top);
+        LargerMotion m = {0, amplitude(*curve, top), curve, NAN, NAN};
         BranchPoint point = curve->points()[static_cast<std::size_t>(top)];
         const Peak peak = Hbm(known_.basis, known_.options, watch_.quiet())
                               .find_peak(*curve, of.dof, of.measure, of.harmonic);
@@ -234,30 +232,18 @@ class SearchBeside {
     std::optional<LargerMotion> &best_;
 };
 
-template <class Work>
-std::optional<LargerMotion> searched(const KnownResponse &known, Watch watch, Work work) {
+} // namespace
+
+std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch,
+                                               const std::vector<IsolatedBranch> *found) {
     std::optional<LargerMotion> best;
     try {
-        SearchBeside search(known, watch, best);
-        work(search);
+        SearchBeside(known, watch, best).run(found);
     } catch (const Error &e) { // what there is already is an answer
         if (e.status() == status::cancelled || e.status() == status::memory) throw;
         watch.log(1, std::string("the search beside the curve ended early: ") + e.what());
     }
     return best;
-}
-
-} // namespace
-
-std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch) {
-    return searched(known, watch, [](SearchBeside &search) { search.run(); });
-}
-
-std::optional<LargerMotion> largest_of(const std::vector<IsolatedBranch> &found, const KnownResponse &known,
-                                       Watch watch) {
-    return searched(known, watch, [&](SearchBeside &search) {
-        for (const IsolatedBranch &one : found) search.take(one);
-    });
 }
 
 std::string words_for(const LargerMotion &larger, const KnownResponse &known) {
@@ -267,11 +253,9 @@ std::string words_for(const LargerMotion &larger, const KnownResponse &known) {
     const std::string range = end("from", larger.force_low) + end("to", larger.force_high);
     return format(
         "beside the curve, at the same force, there is a stable motion of %.6g at %.6g Hz, %.3g times the "
-        "peak: "
-        "a slow sweep does not come to it, but a disturbance, a start at large motion or a force that was "
-        "larger "
-        "before may leave the structure there. Its own curve%s is what the solver of this call has found "
-        "(\"n_found\", \"larger_amplitude\")",
+        "peak: a slow sweep does not come to it, but a disturbance, a start at large motion or a force that "
+        "was larger before may leave the structure there. Its own curve%s is what the solver of this call "
+        "has found (\"n_found\", \"larger_amplitude\")",
         larger.amplitude, larger.frequency_hz, larger.amplitude / known.amplitude,
         range.empty() ? "" : (", for force scales" + range + ",").c_str());
 }
