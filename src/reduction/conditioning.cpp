@@ -46,6 +46,21 @@ void refine_fast_ones(const Space &space, Coordinates &c) {
     }
 }
 
+// The directions whose singular value is above `least`.
+Matrix above(const Svd &svd, double least) {
+    const auto beyond =
+        std::find_if(svd.values.begin(), svd.values.end(), [&](double s) { return !(s > least); });
+    return svd.u.columns(0, beyond - svd.values.begin());
+}
+
+// Zeros in the place of the other rows.
+template <class Chosen> Matrix rows_where(const Matrix &columns, Chosen chosen) {
+    Matrix part(columns.rows(), columns.cols());
+    for (std::int64_t j = 0; j < part.cols(); ++j)
+        for (std::int64_t i = 0; i < part.rows(); ++i) part(i, j) = chosen(i) ? columns(i, j) : 0.0;
+    return part;
+}
+
 } // namespace
 
 Coordinates diagonalise(const Space &space, const Matrix &columns) {
@@ -92,18 +107,22 @@ Matrix coordinates_among(const Space &space, const Matrix &y, const Coordinates 
 }
 
 Conditioned condition_columns(const Space &space, const Matrix &columns, double tolerance) {
-    Svd svd = thin_svd(columns); // in the M-inner product, since coordinates with mass are M-orthonormal
-    Conditioned result;
-    const double largest = svd.values.empty() ? 0 : svd.values.front();
+    Conditioned result; // in the M-inner product, since coordinates with mass are M-orthonormal
+    const Svd all = thin_svd(columns);
+    const double largest = all.values.empty() ? 0 : all.values.front();
     if (!(largest > 0))
         throw Error(status::internal, "the collected modes have no direction")
             .reason(reason::basis_too_small);
-    std::int64_t kept = 0;
-    for (double s : svd.values) {
-        result.singular_values.push_back(s / largest);
-        if (s > tolerance * largest) ++kept;
+    for (double s : all.values) result.singular_values.push_back(s / largest);
+    if (space.lambda.front() > 0) {
+        result.coordinates = diagonalise(space, above(all, tolerance * largest));
+        return result;
     }
-    result.coordinates = diagonalise(space, svd.u.columns(0, kept));
+    const Matrix rigid = rows_where(columns, [&](std::int64_t i) { return space.lambda[i] == 0; }),
+                 elastic = rows_where(columns, [&](std::int64_t i) { return space.lambda[i] > 0; });
+    Matrix kept = above(thin_svd(rigid), tolerance * largest);
+    kept.append(above(thin_svd(elastic), tolerance * largest));
+    result.coordinates = diagonalise(space, kept);
     return result;
 }
 

@@ -22,7 +22,8 @@ struct Conditioned {
     vector<double> singular_values; // of the columns in the M-inner product, scaled by the largest
 };
 /// SVD of mass-normalised columns, in which coordinates without mass count by their stiffness; directions
-/// whose scaled singular value is not above `tolerance` are dropped.
+/// whose scaled singular value is not above `tolerance` are dropped. Rigid-body motion by itself: mixed with
+/// others, it would have the stiffness of what is dropped, and a free body an equilibrium far away.
 Conditioned condition_columns(const Space &space, const Matrix &columns, double tolerance);
 
 } // namespace plm

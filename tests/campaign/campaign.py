@@ -213,29 +213,63 @@ def one(family, seed, way, keep=lambda result: None):
     return result
 
 
-def in_child(family, seed, way, limit):
-    """The result, from a process of its own: a crash or a run without end is a result, too."""
-    read, write = os.pipe()
-    child = os.fork()
-    if child == 0:
-        os.close(read)
-        resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 2))
-        with os.fdopen(write, "wb") as out:
-            one(family, seed, way, lambda so_far: (pickle.dump(so_far, out), out.flush()))
-        os._exit(0)
-    os.close(write)
-    known = None
-    with os.fdopen(read, "rb") as source:
+class Worker:
+    """A process that takes one model after the other, as a host does, and is replaced where one brings it down or does not end."""
+
+    def __init__(self, way, limit):
+        self.way, self.limit, self.pid = way, limit, None
+
+    def _begin(self):
+        theirs, self.orders = os.pipe()
+        self.results, ours = os.pipe()
+        self.pid = os.fork()
+        if self.pid == 0:
+            os.close(self.orders), os.close(self.results)
+            self._serve(os.fdopen(theirs, "rb"), os.fdopen(ours, "wb"))
+            os._exit(0)
+        os.close(theirs), os.close(ours)
+        self.orders, self.results = os.fdopen(self.orders, "wb"), os.fdopen(self.results, "rb")
+
+    def _serve(self, orders, results):
+        def keep(so_far):
+            pickle.dump(so_far, results)
+            results.flush()
+
         try:
             while True:
-                known = pickle.load(source)
-        except (EOFError, pickle.UnpicklingError):
+                family, seed = pickle.load(orders)
+                most = int(time.process_time()) + 1 + self.limit
+                resource.setrlimit(resource.RLIMIT_CPU, (most, resource.RLIM_INFINITY))
+                keep(one(family, seed, self.way, keep))
+                keep(None)
+        except EOFError:
             pass
-    _, ended = os.waitpid(child, 0)
-    if known:
-        return known
-    name = signal.Signals(os.WTERMSIG(ended)).name if os.WIFSIGNALED(ended) else f"exit {os.WEXITSTATUS(ended)}"
-    return dict(family=family.__name__, seed=seed, died="no end" if name in ("SIGXCPU", "SIGKILL") else name)
+
+    def run(self, family, seed):
+        """What is known of the model: a crash or a run without end is a result, too."""
+        if self.pid is None:
+            self._begin()
+        pickle.dump((family, seed), self.orders)
+        self.orders.flush()
+        known = None
+        try:
+            while (so_far := pickle.load(self.results)) is not None:
+                known = so_far
+            return known
+        except (EOFError, pickle.UnpicklingError):
+            ended = self.end()
+        if known:
+            return known
+        name = signal.Signals(os.WTERMSIG(ended)).name if os.WIFSIGNALED(ended) else f"exit {os.WEXITSTATUS(ended)}"
+        return dict(family=family.__name__, seed=seed, died="no end" if name == "SIGXCPU" else name)
+
+    def end(self):
+        """How the process ended: as of os.waitpid."""
+        if self.pid is None:
+            return 0
+        self.orders.close(), self.results.close()
+        ended, self.pid = os.waitpid(self.pid, 0)[1], None
+        return ended
 
 
 def report(results, arguments):
@@ -262,15 +296,16 @@ def main():
     parser.add_argument("--unknown", type=float, default=0.05, help="share of models whose exact motion may stay unknown")
     a = parser.parse_args()
     chosen = sets[a.families]
-    results = []
+    way = in_steps if a.steps else in_one_call
+    worker, results = Worker(way, a.limit), []
     for k in range(a.count) if a.one < 0 else [a.one]:
         family = chosen[k % len(chosen)]
         if a.only and family.__name__ not in a.only.split(","):
             continue
-        way = in_steps if a.steps else in_one_call
-        r = in_child(family, a.seed + k, way, a.limit) if a.one < 0 else one(family, a.seed + k, way)
+        r = worker.run(family, a.seed + k) if a.one < 0 else one(family, a.seed + k, way)
         results.append(r)
         print(f"{k:4d} " + line(r), flush=True)
+    worker.end()
     print(table(results), summary(results), sep="\n\n")
     if a.markdown:
         with open(a.markdown, "w", encoding="utf-8") as page:

@@ -96,6 +96,17 @@ void rigid_body_motion_stays_exactly_without_stiffness(void **) {
     assert_true(result.coordinates.lambda[0] == 0 && result.coordinates.lambda[1] > 1);
 }
 
+// What the tolerance leaves of a fast mode in the second direction, 5 % of it, must not become its stiffness:
+// a free body under a dead load then had an equilibrium at kilometres, and a curve began there.
+void rigid_body_motion_takes_no_stiffness_from_what_is_dropped(void **) {
+    const Space space = space_with({0, 0, 4, 1e6});
+    const auto result =
+        plm::condition_columns(space, columns(4, {1, 0, 0, 0, 1, 1e-5, 0, 5e-7, 0.6, 0, 0.8, 0}), 1e-6);
+    assert_int_equal(result.coordinates.lambda.size(), 3);
+    assert_true(result.coordinates.lambda[0] == 0 && result.coordinates.lambda[1] == 0);
+    assert_true(near(result.coordinates.lambda[2], 4, 1e-12));
+}
+
 // The columns span everything, so that the values are those of the space. A mode 1e14 times as fast as the
 // slowest has a compliance of 1e-14 beside one of 1, in which rounding leaves two digits; Rayleigh's quotient
 // has nine.
@@ -147,6 +158,7 @@ int main() {
         cmocka_unit_test(repeated_columns_are_dropped),
         cmocka_unit_test(reduced_stiffness_is_diagonal_and_mass_the_identity),
         cmocka_unit_test(rigid_body_motion_stays_exactly_without_stiffness),
+        cmocka_unit_test(rigid_body_motion_takes_no_stiffness_from_what_is_dropped),
         cmocka_unit_test(fast_modes_keep_their_digits),
         cmocka_unit_test(the_static_basis_contains_the_rest_displacement),
         cmocka_unit_test(nothing_is_added_to_the_static_basis_without_need),
