@@ -1,11 +1,12 @@
 #!/bin/sh
 # Builds libplm with its tests and runs them.
 #     sh tests/run.sh             preset dev
-#     sh tests/run.sh --all       preset dev with half a minute of each fuzzer, of asan the C API and hosts with half a minute of
+#     sh tests/run.sh --all       preset dev with a minute of each fuzzer, of asan the C API and hosts with half a minute of
 #                                 scenarios drawn by chance, and of tsan, permissive and release what differs there from dev (all
 #                                 of one, or asserting and libcxx: name it). dev is compiled as release is, so that the three share objects
 #     sh tests/run.sh PRESET...   these presets of CMakePresets.json
-# Missing packages are installed where that is possible. Works from any folder; everything goes to build/.
+# Missing packages are installed where that is possible. Works from any folder; everything goes to build/, but for what was compiled,
+# which ccache keeps at its own place (CCACHE_DIR): another tree, or the next fresh clone, compiles only what differs.
 set -u
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd) || exit 1
 cd "$root" || exit 1
@@ -13,7 +14,7 @@ cd "$root" || exit 1
 
 all=
 case ${1-} in
--h | --help) sed -n '2,8s/^# //p' tests/run.sh; exit 0 ;;
+-h | --help) sed -n '2,9s/^# //p' tests/run.sh; exit 0 ;;
 --all) set -- dev asan tsan permissive release; all=yes ;;
 -*) echo "run.sh: unknown option $1 (see --help)" >&2; exit 2 ;;
 '') set -- dev ;;
@@ -21,17 +22,17 @@ esac
 
 # shellcheck disable=SC2086,SC2154
 need_packages $plm_build_packages gfortran pkg-config libcmocka-dev python3 python3-numpy python3-scipy \
-    python3-matplotlib python3-h5py python3-meshio python3-vtk9 xvfb xauth python3-pip calculix-ccx abigail-tools valgrind mkdocs libopenmpi-dev openmpi-bin libmumps-dev clang libclang-rt-dev libc++-dev libc++abi-dev make ccache
+    python3-matplotlib python3-h5py python3-meshio python3-vtk9 xvfb xauth octave python3-pip calculix-ccx abigail-tools valgrind mkdocs libopenmpi-dev openmpi-bin libmumps-dev clang libclang-rt-dev libc++-dev libc++abi-dev make ccache
 
 jobs=2
 export CMAKE_GENERATOR="${CMAKE_GENERATOR:-Ninja}"
 export OPENBLAS_NUM_THREADS="${OPENBLAS_NUM_THREADS:-1}" # the tests themselves run side by side
 export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
 
-# What two presets compile alike is compiled once.
+# What two presets compile alike, or two trees, is compiled once.
 if command -v ccache >/dev/null && [ -z "${CMAKE_CXX_COMPILER_LAUNCHER-}" ]; then
     export CMAKE_C_COMPILER_LAUNCHER=ccache CMAKE_CXX_COMPILER_LAUNCHER=ccache
-    export CCACHE_DIR="${CCACHE_DIR:-$root/build/ccache}" CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
+    export CCACHE_BASEDIR="$root" CCACHE_NOHASHDIR=1
 fi
 
 summary=
@@ -80,7 +81,7 @@ for preset; do
         options=-DPLM_UNITY=ON # several files at once where all is built from nothing
         PLM_FUZZ_SECONDS=5 PLM_SCENARIO_SECONDS=10
         case $preset in
-        dev) options="$options -DCMAKE_BUILD_TYPE=Release" PLM_FUZZ_SECONDS=30 ;;
+        dev) options="$options -DCMAKE_BUILD_TYPE=Release" PLM_FUZZ_SECONDS=60 ;;
         asan) PLM_SCENARIO_SECONDS=30 ;;
         esac
         export PLM_FUZZ_SECONDS PLM_SCENARIO_SECONDS

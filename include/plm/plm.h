@@ -917,7 +917,9 @@ PLM_API plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, int64
  * force that falls with growing amplitude, a closed branch exists; it is entered there and traced. force_max: largest
  * force scale looked at, 0: eight times "force_scale". count: branches found, read by plm_hbm_get_found. Where curves are
  * made of exact motions ("motion"), the backbone of this search has few harmonics, branches and the forces between which
- * they exist are exact, and what exists only with few harmonics is left out. */
+ * they exist are exact, and what exists only with few harmonics is left out. Where plm_hbm_find_peak found the peak of
+ * main_branch before, the one with the largest stable motion above it comes first: "larger_amplitude" and
+ * "larger_frequency_hz" of hbm are that motion. */
 PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, int64_t *count);
 /* The phase-resonant backbones in the frequency range: frequency and amplitude of the resonance against the force. The
  * points of each carry their own "point_force_scale". Exact where curves are made of exact motions ("motion"), with their
@@ -1040,8 +1042,8 @@ PLM_API plm_status plm_branch_write_csv_to(plm_branch *branch, int64_t dof, int3
 /* A page of text about the curve, to be printed or kept with the results: model and what was left out, basis, curve with
  * its folds and bifurcations, peak, stability, other motions at this force, error and by what it was judged, warnings with
  * their remedies, times. Peak, error and larger motions are those that earlier calls found of this curve:
- * plm_model_compute_response(), else plm_hbm_find_peak(), and plm_hbm_estimate_error() at that peak; of what no call has
- * looked for it says so. Lines end with a newline and have about a hundred characters at most; DOFs count from 0. */
+ * plm_model_compute_response(), else plm_hbm_find_peak(), and plm_hbm_estimate_error() at that peak and
+ * plm_hbm_find_isolated() after it; of what no call has looked for it says so. Lines end with a newline and have about a hundred characters at most; DOFs count from 0. */
 PLM_API plm_status plm_branch_describe(plm_branch *branch, int64_t capacity, char *buffer, int64_t *needed);
 
 /* ---- Transient: motion in time ----------------------------------------------------------------------------------

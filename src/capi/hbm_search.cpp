@@ -41,6 +41,18 @@ plm_status keep_found(HbmHandle &h, std::vector<FoundBranch> found, std::int64_t
     return deliver(h, std::move(warnings));
 }
 
+/// What lies beside a curve is known of it from now on, where its peak is: for that it is compared with.
+std::optional<plm::LargerMotion> keep_beside(const HbmHandle &h, const BranchHandle &curve,
+                                             const plm::IsolatedSearch &search) {
+    if (!curve.found) return {};
+    const plm::CurveFindings &known = *curve.found;
+    curve.found->larger = plm::find_larger_motion(
+        {built(*h.basis), h.hbm_options, curve.core, known.peak.amplitude, known.output}, h.owner->watch(),
+        &search.branches);
+    curve.found->looked_beside = plm::effort_left() > 0;
+    return curve.found->larger;
+}
+
 } // namespace
 
 plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, std::int64_t point, std::int32_t mirrored,
@@ -61,10 +73,15 @@ plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double f
         require_force(force_max, "force_max");
         require_pointer(count, "count");
         const plm::IsolatedSearch search = solver(h).find_isolated(*curve->core, force_max);
+        const std::optional<plm::LargerMotion> larger = keep_beside(h, *curve, search);
         std::vector<FoundBranch> found;
+        if (larger) found.push_back({larger->curve, larger->force_low, larger->force_high});
         for (const plm::IsolatedBranch &b : search.branches)
-            found.push_back({b.branch, b.birth_force, b.merge_force});
-        return keep_found(h, std::move(found), count);
+            if (!larger || b.branch != larger->curve)
+                found.push_back({b.branch, b.birth_force, b.merge_force});
+        const plm_status status = keep_found(h, std::move(found), count);
+        h.larger = larger;
+        return status;
     });
 }
 

@@ -88,11 +88,12 @@ const std::vector<Key> &hbm_keys() {
                           "curves found by the last search, or, of the solver that a response was computed "
                           "with in one call, beside the curve of that",
                           [](const HbmHandle &h) { return static_cast<std::int64_t>(h.found.size()); }),
-        result<HbmHandle>("larger_amplitude",
-                          "of a response computed in one call: the highest stable motion known beside its "
-                          "curve at the same "
-                          "force, on the first of the curves found; 0: none is known",
-                          [](const HbmHandle &h) { return h.larger ? h.larger->amplitude : 0.0; }),
+        result<HbmHandle>(
+            "larger_amplitude",
+            "of a response computed in one call, or after a search for isolated branches beside a "
+            "curve whose peak was found before: the highest stable motion known beside that "
+            "curve at the same force, on the first of the curves found; 0: none is known",
+            [](const HbmHandle &h) { return h.larger ? h.larger->amplitude : 0.0; }),
         result<HbmHandle>("larger_frequency_hz", "where that motion stands (Hz); 0: none is known",
                           [](const HbmHandle &h) { return h.larger ? h.larger->frequency_hz : 0.0; }),
         result<HbmHandle>("warning", "what the last call warned of; empty: nothing",

@@ -12,6 +12,9 @@ struct EffortBudget {
     /// What a look at the side may cost however little its curve did: the estimate of an error, the search
     /// for other motions. Some tenths of a second, or less where they come to an end.
     static constexpr double aside = 2e9;
+    /// A run of the flow for the stability of a point by itself, by a bound that is some ten times what it
+    /// takes.
+    static constexpr double stability_of_point = 1e10;
     /// The estimate of an error where nothing else is left to do: the answer is worth little without.
     static constexpr double last_estimate = 4e10;
 

@@ -21,8 +21,6 @@ constexpr double settled = 1e-3, exact_state = 1e-9;
 constexpr double safe_state = 2e-5;
 // The same by the instants of the events, as angles.
 constexpr double safe_shift = 5e-4, exact_shift = 1e-7;
-// Of one run of the flow, which finds events by itself: above, a curve would take minutes.
-constexpr double affordable = 3e7; // flops
 
 // The fastest motion of the stiffest contact set bounds the length of the flow's pieces from above; every
 // event ends one.
@@ -95,10 +93,10 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
         });
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
-    const bool dear = flops_of_run(flow, periods_, sequence.events.size()) > affordable;
+    const double flops = flops_of_run(flow, periods_, sequence.events.size());
     Matrix found;
-    if (dear) found = found_by([&] { return by_events(flow, start, sequence, within); });
-    if (found.rows() > 0 || (dear && !patient_)) return found;
+    if (flops > of_curve) found = found_by([&] { return by_events(flow, start, sequence, within); });
+    if (found.rows() > 0 || flops > affordable_) return found;
     if (static_cast<std::int64_t>(correction_.size()) == model->state_size())
         found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
     return found.rows() > 0 ? found : found_by([&] { return newton(flow, start, start, within); });

@@ -13,8 +13,11 @@ EventSequence contact_events(const ReducedModel &reduced, const BranchPoint &poi
 
 class MotionBeside {
   public:
-    /// patient: the flow is run whatever it costs.
-    MotionBeside(std::int64_t period_multiple, bool patient) : periods_(period_multiple), patient_(patient) {}
+    /// affordable: what one run of the flow may cost (flops), INFINITY: it is run whatever it costs.
+    MotionBeside(std::int64_t period_multiple, double affordable)
+        : periods_(period_multiple), affordable_(affordable) {}
+    /// Where points of a whole curve ask: above, that would take minutes.
+    static constexpr double of_curve = 3e7;
     /// The monodromy matrix of the exact motion beside `point`; empty when a few steps of Newton's method do
     /// not lead to a motion that the point describes, or when the flow would take longer than allowed.
     /// sequence: contact_events() of the point; within: see period_step(). What lay between the last point
@@ -34,7 +37,7 @@ class MotionBeside {
     void keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found);
 
     std::int64_t periods_;
-    bool patient_;
+    double affordable_;
     std::shared_ptr<const FlowModel> model_;  // of the last point
     std::shared_ptr<ContactModesKept> modes_; // of that model
     vector<double> correction_;               // FlowModel::state_size(); empty: none is known

@@ -1,5 +1,6 @@
 #include "orbits/stability.hpp"
 #include "linalg/lapack.hpp"
+#include "motions/effort_budget.hpp"
 #include "motions/free_motion.hpp"
 #include "orbits/exact_motion.hpp"
 #include "orbits/hill.hpp"
@@ -13,6 +14,12 @@ namespace {
 // The matrix exponentials cost about n^3 each, for two events of every moving pair: beyond this size more
 // than the curve itself.
 constexpr std::int64_t automatic_size = 24;
+
+// Of one run of the flow: a point by itself is worth more than each one of a curve.
+double affordable(const MotionOptions &options, StabilityOf of) {
+    if (options.stability != StabilityKind::automatic) return INFINITY;
+    return of == StabilityOf::point ? EffortBudget::stability_of_point : MotionBeside::of_curve;
+}
 
 // Orthonormal, beside the columns of `free` cut to n rows (what is left out there is 0): n x (n - m).
 Matrix complement(const Matrix &free, std::int64_t n) {
@@ -40,8 +47,7 @@ Matrix states_beside(const Matrix &free, const FlowModel &flow, bool velocities)
 
 Stability::Stability(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
                      StabilityOf of)
-    : reduced_(std::move(reduced)),
-      beside_(options.period_multiple, options.stability != StabilityKind::automatic),
+    : reduced_(std::move(reduced)), beside_(options.period_multiple, affordable(options, of)),
       period_multiple_(options.period_multiple),
       wanted_(options.stability == StabilityKind::floquet || options.stability == StabilityKind::hill ||
               (options.stability == StabilityKind::automatic &&
@@ -70,10 +76,11 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) {
 
 std::string Stability::unknown_text(std::int64_t n_unknown, std::int64_t n_points) const {
     const std::string why =
-        hill_ ? format("Hill's matrix would be larger than %lld there; set stability to floquet",
-                       static_cast<long long>(largest_hill_order))
-              : "no exact motion was found beside them, which their harmonics may not describe well enough; "
-                "take more harmonics, or set stability to off";
+        hill_
+            ? format("Hill's matrix would be larger than %lld there; set stability to floquet",
+                     static_cast<long long>(largest_hill_order))
+            : "no exact motion was found beside them, which their harmonics may not describe well enough, or "
+              "which would take long to find; take more harmonics, or set stability to floquet, or to off";
     return format("the stability of %lld of %lld points is not known: %s", static_cast<long long>(n_unknown),
                   static_cast<long long>(n_points), why.c_str());
 }

@@ -43,8 +43,13 @@ class SearchBeside {
         options_.max_points = points_;
     }
 
-    void run() {
-        if (curve_.beside) take(curve_.beside, nullptr);
+    void run(const std::vector<IsolatedBranch> *found) {
+        if (curve_.beside) take(curve_.beside);
+        if (found) {
+            for (const IsolatedBranch &b : *found)
+                if (take(b.branch)) best_->force_low = b.birth_force, best_->force_high = b.merge_force;
+            return;
+        }
         if (points_ < least_points || !is_held_apart()) return;
         if (reduced_->whole_contact().moves()) return; // the phase against the force is none of resonance
         std::vector<BranchPoint> starts =
@@ -173,30 +178,29 @@ class SearchBeside {
             settle_harmonics(reduced_, o, start, watch_.quiet());
         else if (!make_exact_nearest(reduced_, o, start, work))
             return;
-        take(trace_through(reduced_, o, start, watch_.quiet()), &crossing);
+        if (!take(trace_through(reduced_, o, start, watch_.quiet()))) return;
+        best_->force_low = force_at(crossing.lowest, ForceExtremum::centre);
+        best_->force_high = force_at(crossing.highest, ForceExtremum::saddle);
     }
 
     // The highest stable motion of a curve as the best so far, if it is that.
-    void take(const std::shared_ptr<const Branch> &curve, const Crossing *crossing) {
+    bool take(const std::shared_ptr<const Branch> &curve) {
         const Output &of = known_.output;
         const std::int64_t top = highest_stable(*curve, of);
-        if (top < 0 || !is_larger(amplitude(*curve, top))) return;
-        LargerMotion m;
-        m.curve = curve;
-        m.amplitude = amplitude(*curve, top);
+        if (top < 0 || !is_larger(amplitude(*curve, top))) return false;
+        LargerMotion m = {0, amplitude(*curve, top), curve, NAN, NAN};
         BranchPoint point = curve->points()[static_cast<std::size_t>(top)];
         const Peak peak = Hbm(known_.basis, known_.options, watch_.quiet())
                               .find_peak(*curve, of.dof, of.measure, of.harmonic);
-        if (peak.branch->warnings.has(reason::no_contraction)) return; // it need not be near a solution
+        if (peak.branch->warnings.has(reason::no_contraction)) return false; // it need not be near a solution
         if (stability_of(peak.branch->points()[0]) == 1) {
             m.amplitude = peak.amplitude;
             point = peak.branch->points()[0];
         }
         m.frequency_hz = point.omega / (2 * M_PI);
-        if (!is_on_basis(curve->reduced_model(), point, m.amplitude)) return;
-        m.force_low = crossing ? force_at(crossing->lowest, ForceExtremum::centre) : NAN;
-        m.force_high = crossing ? force_at(crossing->highest, ForceExtremum::saddle) : NAN;
+        if (!is_on_basis(curve->reduced_model(), point, m.amplitude)) return false;
         best_ = std::move(m);
+        return true;
     }
 
     // Whether the basis has a stable motion of a compressed model, too.
@@ -232,10 +236,11 @@ class SearchBeside {
 
 } // namespace
 
-std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch) {
+std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch,
+                                               const std::vector<IsolatedBranch> *found) {
     std::optional<LargerMotion> best;
     try {
-        SearchBeside(known, watch, best).run();
+        SearchBeside(known, watch, best).run(found);
     } catch (const Error &e) { // what there is already is an answer
         if (e.status() == status::cancelled || e.status() == status::memory) throw;
         watch.log(1, std::string("the search beside the curve ended early: ") + e.what());
@@ -289,11 +294,9 @@ std::string words_for(const LargerMotion &larger, const KnownResponse &known) {
     const std::string range = end("from", larger.force_low) + end("to", larger.force_high);
     return format(
         "beside the curve, at the same force, there is a stable motion of %.6g at %.6g Hz, %.3g times the "
-        "peak: "
-        "a slow sweep does not come to it, but a disturbance, a start at large motion or a force that was "
-        "larger "
-        "before may leave the structure there. Its own curve%s is what the solver of this call has found "
-        "(\"n_found\", \"larger_amplitude\")",
+        "peak: a slow sweep does not come to it, but a disturbance, a start at large motion or a force that "
+        "was larger before may leave the structure there. Its own curve%s is what the solver of this call "
+        "has found (\"n_found\", \"larger_amplitude\")",
         larger.amplitude, larger.frequency_hz, larger.amplitude / known.amplitude,
         range.empty() ? "" : (", for force scales" + range + ",").c_str());
 }

@@ -5,6 +5,7 @@
 #pragma once
 #include "reduction/basis.hpp"
 #include "searches/hbm.hpp"
+#include "searches/isolated.hpp"
 
 namespace plm {
 
@@ -19,8 +20,10 @@ struct KnownResponse {
 
 /// The highest one that is found for no more work than the curve took (at least a part of a second), and as
 /// much for its own curve; none: no larger one, or none that is stable. Each was solved on the basis itself,
-/// and lies near a solution of the whole structure where that can be told.
-std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch);
+/// and lies near a solution of the whole structure where that can be told. found: curves beside it that are
+/// known already, in place of a search.
+std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch watch,
+                                               const std::vector<IsolatedBranch> *found = nullptr);
 
 /// What is said of it.
 std::string words_for(const LargerMotion &larger, const KnownResponse &known);

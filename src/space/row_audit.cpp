@@ -27,42 +27,62 @@ class RowAudit {
         findings_.push_back({severity, value, std::move(text)});
     }
 
-    // Where translations are known, a gap row of other DOFs alone measures an angle.
-    void rotations() {
+    using Place = Geometry::Place;
+
+    // The DOFs of a node from K, where its translations tell how many there are.
+    std::int64_t per_node() const { return m_.translations().empty() ? 1 : m_.translations().front().step; }
+
+    // By the coordinates that the host gave, else as K numbers the nodes; node -1: neither tells.
+    Place place(std::int64_t dof) const {
+        if (m_.geometry().is_known()) return m_.geometry().place(dof);
+        if (m_.translations().empty()) return {};
+        return {dof / per_node(), static_cast<std::size_t>(dof % per_node())};
+    }
+
+    // By the coordinates, which know of springs to the ground, too; else what strains nothing in K.
+    bool translates(std::int64_t dof) const {
+        if (m_.geometry().is_known()) {
+            const Place p = m_.geometry().place(dof);
+            return p.node < 0 || p.component < 3;
+        }
         const vector<Translation> &known = m_.translations();
-        if (known.empty() || known.front().step < 2) return;
+        return per_node() < 2 ||
+               std::any_of(known.begin(), known.end(), [&](const Translation &t) { return t.holds(dof); });
+    }
+
+    // A gap row of rotations alone measures an angle.
+    void rotations() {
         const auto rows = m_.given_gap_rows();
         std::int64_t turned = 0, one = -1;
         for (std::int64_t i = 0; i < m_.n_pairs(); ++i) {
             const auto &row = rows[Contact::normal_row(i)];
-            const bool moves = std::any_of(row.begin(), row.end(), [&](const DofTerm &g) {
-                return std::any_of(known.begin(), known.end(),
-                                   [&](const Translation &t) { return t.holds(g.dof); });
-            });
-            if (!moves && turned++ == 0) one = i;
+            const bool moves =
+                std::any_of(row.begin(), row.end(), [&](const DofTerm &g) { return translates(g.dof); });
+            if (!moves && !row.empty() && turned++ == 0) one = i;
         }
-        if (turned > 0)
-            add(2, static_cast<double>(turned),
-                format("%lld pairs (the first: pair %lld, DOF %lld) touch no DOF of a translation: do they "
-                       "use a "
-                       "rotation, or numbers that are off by one? Translations are DOFs %lld, %lld, ... "
-                       "counted from 0",
-                       Int(turned), Int(one), Int(rows[static_cast<std::size_t>(one)].front().dof),
-                       Int(known.front().first), Int(known.front().first + known.front().step)));
+        if (turned == 0) return;
+        std::string where;
+        if (!m_.geometry().is_known()) {
+            const Translation &first = m_.translations().front();
+            where = format(" Translations are DOFs %lld, %lld, ... counted from 0", Int(first.first),
+                           Int(first.first + first.step));
+        }
+        add(2, static_cast<double>(turned),
+            format("%lld pairs (the first: pair %lld, DOF %lld) touch no DOF of a translation: do they use a "
+                   "rotation, or numbers that are off by one?%s",
+                   Int(turned), Int(one), Int(rows[static_cast<std::size_t>(one)].front().dof),
+                   where.c_str()));
     }
 
     // Two nodes touch along an axis by one component, the same on both sides, unless their DOFs were counted
     // with another number of them per node.
     void mixed_components() {
-        const vector<Translation> &known = m_.translations();
-        if (known.empty() || known.front().step < 2) return;
-        const std::int64_t step = known.front().step;
         const auto is_mixed = [&](const DofTerms &row) {
             if (row.size() != 2) return false;
-            const std::int64_t a = row[0].dof, b = row[1].dof;
+            const Place a = place(row[0].dof), b = place(row[1].dof);
             const bool opposed =
                 std::abs(row[0].coefficient + row[1].coefficient) < 1e-6 * std::abs(row[0].coefficient);
-            return opposed && a / step != b / step && a % step != b % step;
+            return opposed && a.node >= 0 && b.node >= 0 && a.node != b.node && a.component != b.component;
         };
         const auto rows = m_.given_gap_rows();
         std::int64_t mixed = 0, one = -1;
@@ -73,9 +93,13 @@ class RowAudit {
         const std::int64_t a = row[0].dof, b = row[1].dof;
         add(1, static_cast<double>(mixed),
             format("%lld pairs of two DOFs (the first: pair %lld, DOFs %lld and %lld) join component %lld of "
-                   "one node to component %lld of another: the stiffness matrix has %lld DOFs per node; were "
-                   "they counted with another number of them?",
-                   Int(mixed), Int(one), Int(a), Int(b), Int(a % step), Int(b % step), Int(step)));
+                   "one node to component %lld of another%s; were they counted with another number of them "
+                   "per node?",
+                   Int(mixed), Int(one), Int(a), Int(b), Int(place(a).component), Int(place(b).component),
+                   (m_.geometry().is_known()
+                        ? std::string()
+                        : format(": the stiffness matrix has %lld DOFs per node", Int(per_node())))
+                       .c_str()));
     }
 
     // Rows as (DOF, coefficient) lists; equal ones share a key.
@@ -129,10 +153,8 @@ class RowAudit {
     // Against the ground along an oblique normal. Where nothing tells which DOFs a node has, two coefficients
     // that make a direction are taken for one.
     bool is_of_one_node(const DofTerms &row) const {
-        if (!m_.translations().empty()) {
-            const std::int64_t step = m_.translations().front().step;
-            return row[0].dof / step == row[1].dof / step;
-        }
+        const Place a = place(row[0].dof), b = place(row[1].dof);
+        if (a.node >= 0 && b.node >= 0) return a.node == b.node;
         return std::abs(std::hypot(row[0].coefficient, row[1].coefficient) - 1) < balanced;
     }
 

@@ -18,6 +18,14 @@ class Geometry {
     void take_stiffness(const SparseMatrix &k, const vector<std::int64_t> &multipliers);
     void take_mass(const SparseMatrix &m);
 
+    /// Whose DOF one is, and which of its six; node -1: of none that is known.
+    struct Place {
+        std::int64_t node = -1;
+        std::size_t component = 0;
+    };
+    Place place(std::int64_t dof) const {
+        return is_known() ? places_[static_cast<std::size_t>(dof)] : Place();
+    }
     std::int64_t n_nodes() const { return static_cast<std::int64_t>(nodes_.size()); }
     /// Nodes by their number of DOFs, 0 to 6, and DOFs that no node has (modal ones, say).
     const std::array<std::int64_t, 7> &nodes_of_dofs() const { return nodes_of_dofs_; }
@@ -60,10 +68,6 @@ class Geometry {
     double sideways(const DofTerms &row) const;
 
   private:
-    struct Place {
-        std::int64_t node = -1;
-        std::size_t component = 0;
-    };
     double value(std::int64_t dof, std::size_t motion) const;
     const Point &at(std::int64_t dof) const { return nodes_[static_cast<std::size_t>(places_[dof].node)].at; }
 

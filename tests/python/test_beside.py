@@ -28,7 +28,7 @@ class LargerMotion(unittest.TestCase):
     curve beside the main one, whose motions are twice as large."""
 
     @staticmethod
-    def response(force):
+    def model(force):
         k = 1e4
         m = plm.Model(scipy.sparse.diags([1, 0.2]).tocsc(),
                       scipy.sparse.csc_matrix(k * numpy.array([[3.048, -2.048], [-2.048, 2.048]])))
@@ -36,7 +36,10 @@ class LargerMotion(unittest.TestCase):
         m.add_gap_rows(scipy.sparse.csr_matrix([[1.0, 0]]), [k])
         m.set_preload([50, 0])
         m.set_excitation([force, 0])
-        return quiet(lambda: m.build().compute_response(0))
+        return m.build()
+
+    def response(self, force):
+        return quiet(lambda: self.model(force).compute_response(0))
 
     def test_is_said(self):
         r, said = self.response(0.6)
@@ -49,7 +52,24 @@ class LargerMotion(unittest.TestCase):
         self.assertEqual(larger.branch.end_reason, plm.REASON_LOOP_CLOSED)
         (found,) = r.hbm.find_isolated(r.curve)  # which begins at the other resonances, too
         self.assertAlmostEqual(largest_on(found.branch, 0) / larger.amplitude, 1, delta=1e-2)
-        self.assertIsNone(r.larger)  # the list is that of the last search
+        self.assertAlmostEqual(r.larger.amplitude / larger.amplitude, 1, delta=1e-6)  # of that search, the same
+        numpy.testing.assert_allclose(r.larger.force_range, larger.force_range, rtol=1e-3)
+
+    def test_a_search_for_isolated_branches_knows_it_too(self):
+        """Of a curve that was swept by itself, once its peak is known; and the page of the curve says so."""
+        r, _ = self.response(0.6)
+        model = self.model(0.6)
+        hbm = plm.Hbm(plm.Basis(model, plm.Sampler(model).run()).build(), accuracy=1e-3)
+        curve, _ = quiet(hbm.sweep)
+        quiet(lambda: hbm.find_isolated(curve))
+        self.assertEqual(hbm.larger_amplitude, 0)
+        self.assertIn("curves beside this one were not looked for", curve.describe())
+        quiet(lambda: hbm.find_peak(curve, 0))
+        quiet(lambda: hbm.find_isolated(curve))
+        self.assertAlmostEqual(hbm.larger_amplitude / r.larger.amplitude, 1, delta=1e-3)
+        self.assertRegex(curve.describe(), "a larger stable one beside the curve: 0.0126")
+        hbm.find_backbones()
+        self.assertEqual(hbm.larger_amplitude, 0)  # the list is that of the last search
 
     def test_is_stable_in_time(self):
         """Runge and Kutta's method from the point's own state, disturbed by 0.5 %: after 300 periods it is that motion, to which

@@ -1,6 +1,6 @@
 """Damaged case files and tables: the command refuses them in words, whatever stands there; it never ends in a defect of its own.
 
-    test_command_fuzz.py [SECONDS]    as long as this, by default 2
+    test_command_fuzz.py [SECONDS [SEED]]    see fuzzing.py
 """
 import contextlib
 import io
@@ -13,8 +13,9 @@ import unittest
 from plm.command import main
 
 from command_case import Folder
+from fuzzing import seconds_and_seed
 
-SECONDS = float(sys.argv.pop()) if len(sys.argv) > 1 else 2.0
+SECONDS, SEED = seconds_and_seed(2.0, 4)
 CASE = '''model = ["K.mtx", "M.mtx"]
 dofs = "dofs.txt"
 coordinates = "xyz.csv"
@@ -70,7 +71,7 @@ class Damage(Folder):
     def test_damage_by_chance(self):
         self.write("case.toml", CASE)
         whole = {name: (self.folder / name).read_text() for name in ("case.toml", "dofs.txt", "xyz.csv", "pairs.csv")}
-        chance, tried, seen = random.Random(4), 0, set()
+        chance, tried, seen = random.Random(SEED), 0, set()
         os.chdir(self.folder)
         self.addCleanup(os.chdir, "/")
         end = time.monotonic() + SECONDS
@@ -93,4 +94,4 @@ class Damage(Folder):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    unittest.main(argv=sys.argv[:1])

@@ -4,6 +4,8 @@ import subprocess
 import sys
 import unittest
 
+from plm.command.console import in_words_of_the_command
+
 from command_case import Folder
 
 HEAD = "model = ['K.mtx', 'M.mtx']\ndofs = 'dofs.txt'\n"
@@ -95,6 +97,23 @@ class Mistakes(Folder):
         self.assertNotIn("raise effort", err)
         _, err = self.here("response", self.path("case.toml"), "--frequency-min-hz", "100", "--frequency-max-hz", "200", status=1)
         self.assertIn("over a wider range --frequency-min-hz and --frequency-max-hz", err)
+
+    def test_words_of_the_command(self):
+        """Nodes in place of DOFs, wherever the library counts them; no names of functions; advice that begins a sentence."""
+        said = in_words_of_the_command("plm_hbm_sweep: it ended. Raise the effort of\nthe context (the first: DOF 0, counted from 0), of DOFs 0 and 1: "
+                                       "motion of DOF 1 (counted from 0); x.inp:3: plm_model_build: DOFs 0, 1, ...", lambda dof: f"node {10 + dof} y")
+        self.assertEqual(said, "it ended. Raise --effort (0: no limit) (the first: node 10 y), of node 10 y and node 11 y: motion of node 11 y; "
+                         "x.inp:3: node 10 y, node 11 y, ...")
+        self.assertEqual(in_words_of_the_command('name it ("mode" or "mode_frequency_hz")'),
+                         "name it by --frequency-min-hz and --frequency-max-hz around it")
+        out, _ = self.here("audit", self.path("case.toml"))
+        self.assertIn("motion of node 20 x in its positive direction closes pair 0", out)
+        empty = "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 1 1e4\n"
+        _, err = self.here("modes", *(self.write(name, empty) for name in ("K.mtx", "M.mtx")), "--dofs", self.path("dofs.txt"), status=2)
+        self.assertRegex(err, "plm: node 20 x has neither stiffness nor mass")
+
+    def test_options_that_come_again(self):
+        self.refused("'M.mtx' is too much: .* written again for each", "modes", "deck.inp", "--matrices", "K.mtx", "M.mtx")
 
 
 if __name__ == "__main__":

@@ -6,6 +6,8 @@ import warnings
 
 import numpy
 import plm
+import scipy.io
+import scipy.sparse
 from command_case import Folder
 from plm.command import response
 
@@ -62,6 +64,21 @@ class Resumed(Folder):
         self.assertTrue(numpy.array_equal(one[:, 0], other[:, 0]))
         self.here("response", case, "--save-every", "5", "--out", out)  # another curve begins: what belongs to the last one goes
         self.assertFalse(refined.exists())
+
+    def test_what_lies_beside_a_saved_curve_is_looked_for(self):
+        """The two masses of test_beside.py, whose closed curve has motions twice as large; those of the stop have none."""
+        self.assertIn("no larger stable one was found", self.here("response", self.path("case.toml"), "--save-every", "5", "--out",
+                                                                  self.path("none"))[0])
+        for name, matrix in (("K.mtx", [[30480, -20480], [-20480, 20480]]), ("M.mtx", [[1, 0], [0, 0.2]])):
+            scipy.io.mmwrite(self.folder / name, scipy.sparse.coo_matrix(numpy.array(matrix, dtype=float)), symmetry="symmetric", precision=17)
+        self.write("pairs.csv", "node,direction,stiffness\n10,x,10000\n")
+        case = self.write("two.toml", 'model = ["K.mtx", "M.mtx"]\ndofs = "dofs.txt"\ncontact = "pairs.csv"\npreload = [10, "x", 50.0]\n'
+                          'force = [10, "x", 0.6]\nrayleigh = [0, 4e-5]\nmeasure = "half_peak_to_peak"\n')
+        for command in (["response", case, "--save-every", "5"], ["resume", case], ["response", case]):
+            said, told = self.here(*command, "--out", self.path("out"), status=1)
+            self.assertRegex(said, r"a larger stable one beside the curve: 0\.01\d+ at")
+            self.assertRegex(told, "at the same force, there is a stable motion of 0.0")
+            self.assertIn("larger.csv", said)
 
     def test_mistakes(self):
         case, out = self.path("case.toml"), self.path("out")

@@ -68,6 +68,8 @@ class Syntax(Case):
         self.write("4, 5\n", "more.inc")
         deck = self.read(CUBE + '*Include, input="parts/brick.inc"\n3\n*INCLUDE, INPUT=more.inc\n6\n')
         numpy.testing.assert_array_equal(deck.node_sets["SOME"], [1, 2, 3, 4, 5, 6])
+        windows = self.read(CUBE + '*INCLUDE, INPUT=.\\parts\\lower.inc\n')
+        numpy.testing.assert_array_equal(windows.node_sets["SOME"], [1, 2])
         self.write("*INCLUDE, INPUT=deck.inp\n", "loop.inc")
         self.refused(CUBE + "*INCLUDE, INPUT=nowhere.inp\n", 10, "nowhere.inp is not there")
         with self.assertRaisesRegex(FileError, "loop.inc:1: .*includes itself"):
@@ -82,6 +84,12 @@ class Syntax(Case):
                           (23, "2 nodes of the set G are not defined, the first"), (25, "*MPC 'SLIDER'"), (27, "*DYNAMIC"),
                           (28, "*CLOAD")])
         self.assertTrue(all(file == os.path.join(self.folder, "deck.inp") for file, _, _ in deck.unread))
+
+    def test_what_changes_no_model_is_not_listed(self):
+        """Sections of shells and beams, whose matrices are handed over with them; what a material does with temperatures."""
+        deck = self.read(CUBE + "*BEAM SECTION, ELSET=B, SECTION=RECT, MATERIAL=M\n1., 1.\n*SHELL SECTION, ELSET=S, MATERIAL=M\n.1\n"
+                         "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*EXPANSION\n1e-5\n")
+        self.assertEqual(deck.unread, [])
 
     def test_large_decks_are_read_in_seconds(self):
         """A hundred thousand nodes and elements, and lists as long: half a second here, and the machine may be busy."""

@@ -1,6 +1,6 @@
 """Decks that are wrong are refused with their file and line; decks damaged by chance make no other exception and end soon.
 
-    test_decks_broken.py [seconds [seed]]     the damage by chance alone, for longer
+    test_decks_broken.py [SECONDS [SEED]]     for longer, see fuzzing.py
 """
 import glob
 import os
@@ -14,7 +14,10 @@ import unittest
 
 from plm.fe import FileError, read_deck
 
+from fuzzing import seconds_and_seed
+
 HERE = os.path.dirname(os.path.abspath(__file__))
+SECONDS, SEED = seconds_and_seed(0.0, 48)
 PIECES = ["*", "**", ",", "=", "\n", '"', "'", "-1", "0", "1e308", "nan", "99999999999999999999", "1.5", " ",
           "\t", "\0", "ü", "*STEP\n", "*END STEP\n",
           "*INCLUDE, INPUT=", "GENERATE", "E", "S1", "ALL", ".", "*NODE\n",
@@ -170,12 +173,12 @@ def damaged(text, chance):
     return text
 
 
-def fuzz(seconds, seed, most=10**9):
-    """(decks read, decks refused) of `most` decks, or of what the seconds allow. Any other exception comes out, with the deck that made it left in the folder it names."""
+def fuzz(seconds, seed, least=300):
+    """(decks read, decks refused) in these seconds, or of the least number of decks. Any other exception comes out, with the deck that made it left in the folder it names."""
     chance, texts, end = random.Random(seed), seeds(), time.monotonic() + seconds
     folder, counts = tempfile.mkdtemp(), [0, 0]
     path = os.path.join(folder, "fuzzed.inp")
-    while time.monotonic() < end and sum(counts) < most:
+    while time.monotonic() < end or sum(counts) < least:
         with open(path, "w", encoding="utf-8", newline="") as file:
             file.write(damaged(chance.choice(texts), chance))
         begin = time.monotonic()
@@ -217,12 +220,10 @@ class Broken(unittest.TestCase):
                 file.write(text)
                 file.flush()
                 self.assertLess(len(read_deck(file.name).unread), 2)  # weight of a part of the elements
-        read, refused = fuzz(60, 48, 300)
+        read, refused = fuzz(SECONDS, SEED)
+        print(f"{read} damaged decks read, {refused} refused")
         self.assertGreater(min(read, refused), 10)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 1 and sys.argv[1].isdigit():
-        print("read {}, refused {}".format(*fuzz(float(sys.argv[1]), int(sys.argv[2]) if len(sys.argv) > 2 else 0)))
-    else:
-        unittest.main()
+    unittest.main(argv=sys.argv[:1])

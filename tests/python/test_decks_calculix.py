@@ -91,6 +91,32 @@ class Calculix(calculix_runs.Case):
                          [(at + 4, "*BOUNDARY: the set 'NOBODY' has no nodes"), (at + 8, "*CLOAD: the set 'NOBODY' has no nodes"),
                           (at + 10, "*DLOAD: the set 'NOTHING' has no elements")])
 
+    def test_names_with_blanks_and_long_ones(self):
+        """Quoted, in other cases, of more than the eighty letters that CalculiX reads, the section before what it names: one and the
+        same bar. Axes along those of the whole change nothing of a bar that is alike in all directions."""
+        usual = self.modes_of(BAR.lines("BAR") + SECTION + ROOT)
+        for name in ('"carbon steel"', "M" * 100):
+            material = [STEEL[0].replace("STEEL", name), *STEEL[1:]]
+            section = [f"*SOLID SECTION, ELSET=BAR, MATERIAL={name.upper()}, ORIENTATION=\"my axes\""]
+            axes = ['*ORIENTATION, SYSTEM=RECTANGULAR, NAME="My Axes"', "1., 0., 0., 0., 1., 0."]
+            numpy.testing.assert_array_equal(self.modes_of(BAR.lines("BAR") + section + material + axes + ROOT), usual)
+        for wrong in (SECTION[-1].replace("=STEEL", "=STEAL"), SECTION[-1] + ", ORIENTATION=NONE"):
+            lines = BAR.lines("BAR") + STEEL + [wrong]
+            with self.assertRaisesRegex(FileError, rf"deck.inp:{len(lines)}: there is no \*(MATERIAL|ORIENTATION) of the name (STEAL|NONE)"):
+                self.deck(lines).matrices_by_calculix()
+
+    def test_axes_that_turn_with_their_instance(self):
+        """They would have to be turned: refused with the line."""
+        part = ["*PART, NAME=P", *BAR.lines("BAR"), "*ORIENTATION, NAME=O", "1., 0., 0., 0., 1., 0.",
+                "*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL, ORIENTATION=O", "*END PART", "*INSTANCE, NAME=I, PART=P"]
+        for turn, is_refused in ((["1., 0., 0."], False), (["0., 0., 0.", "0., 0., 0., 0., 0., 1., 90."], True)):
+            deck = self.deck([*part, *turn, "*END INSTANCE", *STEEL])
+            if is_refused:
+                with self.assertRaisesRegex(FileError, rf":{len(BAR.lines('BAR')) + 2}: .ORIENTATION in an instance that is turned"):
+                    deck.matrices_by_calculix()
+            else:
+                deck.matrices_by_calculix()
+
     def test_its_errors_say_where(self):
         """CalculiX tells the element on the line below its error."""
         lines = BAR.lines("BAR") + SECTION

@@ -1,11 +1,13 @@
 """Ties, couplings, rigid bodies and equations of decks by deck.model() and by CalculiX: two blocks whose meshes do not match."""
 import os
 import sys
+import warnings
 
 import numpy
+import plm
 
 import calculix_runs
-from plm.fe import read_deck
+from plm.fe import FileError, read_deck
 
 sys.path.insert(0, calculix_runs.DECKS)
 from bricks import STEEL, Block, box, labels  # noqa: E402
@@ -48,6 +50,16 @@ class Constraints(calculix_runs.Case):
         got = self.model(blocks() + list(constraints)).modes(8)
         want = self.frequencies(blocks() + list(by_calculix or constraints), 16)[:8]
         numpy.testing.assert_allclose(got, want, rtol=1e-6)  # seven digits are printed
+
+    def test_ties_name_the_nodes_of_the_deck(self):
+        """What the library counts from 0 comes back as labels, with the line of the tie."""
+        lines = blocks() + ["*SURFACE, NAME=MIXED", "B, S1", "C, S2", "*TIE, NAME=T, POSITION TOLERANCE=0.1", "MIXED, OVER"]
+        upper = [UPPER.node(i, j, 2) for i in range(4) for j in range(3)]
+        warnings.simplefilter("default", plm.PlmWarning)
+        with self.assertWarnsRegex(plm.PlmWarning, rf"deck.inp:{len(lines)}: .*farthest is node ({'|'.join(map(str, upper))}), at 1;"):
+            self.model(lines)
+        with self.assertRaisesRegex(FileError, rf"deck.inp:{len(lines)}: .*the nearest, node ({'|'.join(map(str, upper))}), is 1 from"):
+            self.model([*lines[:-1], "TOP, OVER"])
 
     def test_tie(self):
         self.compare(*TIE)

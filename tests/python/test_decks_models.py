@@ -68,6 +68,20 @@ class Models(unittest.TestCase):
         with self.assertRaisesRegex(FileError, "deck.inp:22: .*partner"):
             self.model(self.CONTACT.format(""), search=0.1)
 
+    def test_load_on_an_arm(self):
+        """A node of no element that follows another: its force is one and a moment there. By hand, each direction a spring of its own."""
+        arm, force = numpy.array([0.5, -0.25, 2.0]), numpy.array([3.0, 2.0, 0.0])
+        for tie in ("*MPC\nBEAM, 300, 5\n", "*RIGID BODY, NSET=ARM, REF NODE=5\n", "*COUPLING, CONSTRAINT NAME=C, REF NODE=5, SURFACE=ARM\n*KINEMATIC\n"):
+            at = numpy.array([0, 0, GAP]) + arm
+            text = ("*NODE, NSET=ARM\n300, {}, {}, {}\n".format(*at) + tie + self.CONTACT.format("")
+                    + "*STEP\n*STATIC\n*CLOAD\n300, 1, 3.\n300, 2, 2.\n*END STEP\n")
+            deck = self.deck(text, matrices(range(1, 7)))
+            q = deck.model(force=[(5, 1, 1.0)], contact_stiffness=1e-9).solve_rest().rest_displacement
+            turn = numpy.cross(arm, force) / STIFFNESS
+            numpy.testing.assert_allclose(q[[deck.dof(5, d) for d in range(1, 7)]], [*force / STIFFNESS, *turn], rtol=1e-10, atol=1e-15)
+            numpy.testing.assert_allclose(q[[deck.dof(300, d) for d in range(1, 7)]], [*force / STIFFNESS + numpy.cross(turn, arm), *turn],
+                                          rtol=1e-10, atol=1e-15)
+
     def test_rest_of_two_masses(self):
         """A force that closes the gap: k x = f - N, N = k_n (2 x - gap) for either side, by hand."""
         step = ("*STEP\n*STATIC\n*CLOAD\n" + "".join(f"{n}, 3, {400 if n < 5 else -400}.\n" for n in range(1, 9)) + "*END STEP\n")

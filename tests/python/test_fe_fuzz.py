@@ -1,6 +1,6 @@
 """Mutated files of every format: whatever stands in them, matrices or a FileError come out, and no absurd size is asked for.
 
-    test_fe_fuzz.py [SECONDS [SEED]]    3 seconds and a fixed seed by default
+    test_fe_fuzz.py [SECONDS [SEED]]    see fuzzing.py
 """
 import os
 import pathlib
@@ -13,6 +13,8 @@ import warnings
 
 from plm.fe import FileError, read_matrices
 from plm.fe.matrices import READERS
+
+from fuzzing import seconds_and_seed
 from test_fe_formats import FORMATS, GOOD, unpacked
 
 MEMORY = 3 << 30  # bytes of address space: a size that was believed unchecked shows as a MemoryError
@@ -74,7 +76,7 @@ def tried(path, format):
 
 
 def main():
-    seconds, seed = float(sys.argv[1]) if len(sys.argv) > 1 else 3.0, int(sys.argv[2]) if len(sys.argv) > 2 else 20
+    seconds, seed = seconds_and_seed(3.0, 20)
     if "asan" not in os.environ.get("LD_PRELOAD", ""):  # which takes all of the address space for itself
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
     warnings.simplefilter("ignore")

@@ -1,7 +1,9 @@
 """What is written for viewers and read back by VTK's and HDF5's own readers are the numbers of the API."""
 import os
 import pathlib
+import shutil
 import stat
+import subprocess
 import tempfile
 import unittest
 
@@ -251,6 +253,28 @@ class Hdf5(Response):
             self.same(file["contact/force"][self.point], contact.force)
             numpy.testing.assert_array_equal(file["contact/closed"][self.point], contact.closed)
             self.same(file["contact/closed_share"][self.point], self.curve.closed_share(self.point))
+
+    @unittest.skipUnless(shutil.which("octave"), "no octave to read the file with")
+    def test_octave_reads_it(self):
+        """Every number and every index as MATLAB counts them: from 1, dimensions in the opposite order."""
+        plm.fe.write_hdf5(self.folder / "curve.h5", self.curve, n_times=32)
+        script = self.folder / "read.m"
+        script.write_text("s = load('-hdf5', 'curve.h5');\n"
+                          "x = {s.frequency_hz, double(s.stable), s.harmonics.amplitude(30, :), "
+                          f"s.harmonics.coefficients(30, :, {self.point + 1}), s.contact.force(:, :, {self.point + 1})', "
+                          f"double(s.contact.closed(:, :, {self.point + 1})'), s.contact.penetration, s.contact.closed_share}};\n"
+                          "for k = 1:numel(x), printf('%.17g ', x{k}); printf('\\n'); end\n")
+        done = subprocess.run(["octave", "--no-gui", "--no-window-system", "--no-init-file", "--quiet", script], cwd=self.folder, check=True,
+                              capture_output=True, text=True, timeout=100, env={**os.environ, "HOME": str(self.folder)})
+        read = [numpy.array(line.split(), dtype=float) for line in done.stdout.splitlines()]
+        contact = self.curve.contact(self.point, 32)
+        points = range(len(self.curve))
+        wanted = [self.curve.frequency_hz, self.curve.stable, self.curve.amplitude(29), self.curve.coefficients(self.point, 29),
+                  contact.force.T, contact.closed.T, [self.curve.contact(point, 32).penetration for point in points],
+                  [self.curve.closed_share(point) for point in points]]
+        self.assertEqual(len(read), len(wanted))
+        for found, of_the_api in zip(read, wanted):
+            self.same(found, numpy.ravel(of_the_api))
 
     def test_some_dofs(self):
         path = self.folder / "curve.h5"

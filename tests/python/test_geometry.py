@@ -79,6 +79,25 @@ class Geometry(unittest.TestCase):
         self.assertEqual(self.one(model, "the translation x leaves forces", 0).value, 4)
         self.assertEqual(self.findings(model, "leaves forces", 1), [])
 
+    def test_springs_to_the_ground_along_the_contact(self):
+        """They hide from K alone that z is a translation; the coordinates tell, and a pair along z is as it should be."""
+        M, K, xyz, _ = block((2, 2, 2), (0, 0, 0), SIDES, **STEEL)
+        nodes = numpy.arange(len(M)).reshape(-1, 3)
+        K = K.copy()
+        K[nodes[:, 2], nodes[:, 2]] += 100.0
+        low, high = (numpy.flatnonzero(xyz[:, 2] == z) for z in (0, SIDES[2]))
+        model = self.model(M, K, nodes, xyz, [(nodes[low[0], 2], nodes[high[0], 2], SIDES[2])])
+        self.assertEqual(self.findings(model, "no DOF of a translation"), [])
+        crossed = self.model(M, K, nodes, xyz, [(nodes[low[0], 2], nodes[high[0], 0], SIDES[2])])
+        self.one(crossed, "join component 2 of one node to component 0 of another; were they", 1)
+
+    def test_a_pair_of_rotations(self):
+        """Two beams' nodes, six DOFs each, told by their coordinates as they are."""
+        eye = 100 * numpy.eye(12)
+        nodes, xyz = numpy.arange(12).reshape(2, 6), [[0, 0, 0], [0, 0, 1.0]]
+        self.one(self.model(eye / 100, eye, nodes, xyz, [(4, 10, 0)]), r"first: pair 0, DOF 4\) touch no DOF of a translation.*by one\?$", 2)
+        self.assertEqual(self.findings(self.model(eye / 100, eye, nodes, xyz, [(2, 8, 0)]), "no DOF of a translation"), [])
+
     def test_a_plane_model_and_modal_coordinates(self):
         """Without DOFs along z, and three DOFs of no node: nothing is missing."""
         M, K, xyz, number = block((4, 3, 1), (0, 0, 0), SIDES, **STEEL)

@@ -605,7 +605,7 @@ void events_count_in_the_price_of_a_flow(void **) {
     const plm::WorkScope scope(&listener);
     const plm::EventSequence sequence = plm::contact_events(*m, point, 1);
     assert_true(sequence.events.size() >= z);
-    plm::MotionBeside beside(1, false);
+    plm::MotionBeside beside(1, plm::MotionBeside::of_curve);
     const plm::Matrix none =
         beside.monodromy(std::make_shared<const plm::FlowModel>(m, 1.0), point, sequence, plm::Matrix());
     printf("    %zu events, %d pieces of work\n", sequence.events.size(), listener.heard);

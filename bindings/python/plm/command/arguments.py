@@ -33,7 +33,8 @@ class _Parser(argparse.ArgumentParser):
         """What no option has taken."""
         name = unknown[0].split("=")[0]
         if not name.startswith("--"):
-            raise Wrong(f"{name!r} is too much; {self.prog} --help tells more")
+            raise Wrong(f"{name!r} is too much: files of the model stand before the options, and an option that takes several is written "
+                        f"again for each; {self.prog} --help tells more")
         near = difflib.get_close_matches(name, self._option_string_actions, 1)
         raise Wrong(f"there is no option {name}" + (f"; did you mean {near[0]}?" if near else f"; {self.prog} --help lists them"))
 
@@ -71,6 +72,8 @@ def _add(parser, setting):
         return
     kind = setting.kind.split()[0]
     several = {"action": "append"} if kind in ("dofs", "loads", "paths") else {}
+    if several:
+        help_text += "; again for each further one"
     words = {"nargs": len(setting.metavar)} if isinstance(setting.metavar, tuple) else {}
     if kind == "counts":
         help_text += ", separated by commas"

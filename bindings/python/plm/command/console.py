@@ -8,7 +8,8 @@ import warnings
 
 from .. import _functions as constants
 from .._context import Context
-from .._errors import PlmWarning
+from .._errors import PlmError, PlmWarning
+from ..fe.errors import FileError
 
 # what is worth knowing and takes nothing from the result
 _HARMLESS = {constants.REASON_ROUNDED, constants.REASON_NO_SWITCHING}
@@ -26,13 +27,20 @@ _WORDS = (("raise the effort of the context", "raise --effort (0: no limit)"),
           (r"spent before there was a result; raise effort", "spent before there was a result; raise --effort (0: no limit)"),
           (r"window_min_hz and window_max_hz of a sampler|\(frequency_min_hz, frequency_max_hz\)",
            "--frequency-min-hz and --frequency-max-hz"),
-          ("were not looked for: find_isolated and find_by_marching do", "were not looked for; without a range and --save-every they are"))
+          (r'\("mode"\s+or\s+"mode_frequency_hz"\)', "by --frequency-min-hz and --frequency-max-hz around it"),
+          ("were not looked for: find_isolated and find_by_marching do", "were not looked for; without a range they are"))
+_FUNCTION = r"\bplm_[a-z0-9_]+: "  # which refused or warned: nothing that the command's user has called
+_DOFS = r"\bDOFs? (\d+(?:(?:, | and )\d+)*)(?:\s+\(counted\s+from\s+0\)|,\s+counted\s+from\s+0(?=\)))?"
 
 
-def in_words_of_the_command(text):
-    """A message of the library, with the options that its reader has."""
-    for library, command in _WORDS:
-        text = re.sub(library.replace(" ", r"\s+"), command, text)  # a page breaks its lines
+def in_words_of_the_command(text, name_of=None):
+    """A message of the library, with the options that its reader has; name_of: of DOFs by their numbers, where the nodes are known."""
+    text = re.sub(_FUNCTION, "", text)
+    for library, command in _WORDS:  # a page breaks its lines, and advice may begin a sentence
+        text = re.sub(library.replace(" ", r"\s+"), lambda found, command=command: command[0].upper() + command[1:]
+                      if found[0][0].isupper() else command, text, flags=re.I)
+    if name_of is not None:
+        text = re.sub(_DOFS, lambda found: re.sub(r"\d+", lambda dof: name_of(int(dof[0])), found[1]), text)
     return text
 
 
@@ -49,12 +57,17 @@ class Console:
         self.quiet = quiet
         self.warnings, self.log, self.notes = [], [], []
         self.matters = False
+        self.name_of = None  # of DOFs, as soon as the nodes are known
         self.context = Context(log=lambda level, text: self.log.append((level, text)))
         self.progress = sys.stderr.isatty() and not quiet
 
+    def in_words(self, text):
+        """A text of the library as the user of the command understands it."""
+        return in_words_of_the_command(text, self.name_of)
+
     def say(self, text):
         """A result."""
-        print(text, flush=True)
+        print(self.in_words(text), flush=True)
 
     def note(self, text):
         """Something the command did by itself."""
@@ -64,11 +77,20 @@ class Console:
 
     def warn(self, text, matters=True):
         """Something that should be looked at; every text once."""
-        text = in_words_of_the_command(text)
+        text = self.in_words(text)
         self.matters = self.matters or matters
         if text not in self.warnings:
             self.warnings.append(text)
             _to_stderr(f"plm: warning: {text}")
+
+    @contextlib.contextmanager
+    def explaining(self):
+        """What the library refuses inside is refused in the words of the command."""
+        try:
+            yield
+        except (PlmError, FileError) as error:
+            error.args = (self.in_words(str(error)),)
+            raise
 
     @contextlib.contextmanager
     def listening(self, with_log=False, findings=()):
@@ -90,5 +112,5 @@ class Console:
 
     def _tell_logged(self):
         for level, text in self.log:
-            if level >= 2 and not any(in_words_of_the_command(text) in told for told in self.warnings):
+            if level >= 2 and not any(self.in_words(text) in told for told in self.warnings):
                 self.warn(text, matters=False)

@@ -5,11 +5,10 @@ import pathlib
 import warnings
 from typing import NamedTuple
 
-from .._errors import PlmError
+from .._errors import PlmError, PlmWarning
 from .._functions import NOT_CONVERGED, TRUNCATED
 from .._reduction import Basis, Sampler
-from .._response import Hbm
-from .console import in_words_of_the_command
+from .._response import Hbm, Response
 from .report import write_report
 from .response_files import write_files
 from .saving import SavedCurve
@@ -40,7 +39,7 @@ def run(settings, console, resumes=False):
     if not found.error <= settings["accuracy"]:
         console.warn("the error of the peak is " + (f"estimated to be {found.error:.1e}, more than the accuracy asked for, "
                      f"{settings['accuracy']:g}" if math.isfinite(found.error) else "not known"))
-    page = page_of(found.curve, dof, structure.name_of(dof))
+    page = console.in_words(found.curve.describe())
     console.say(page.rstrip("\n"))
     if settings["out"]:
         with console.listening():
@@ -49,11 +48,6 @@ def run(settings, console, resumes=False):
         write_report(pathlib.Path(settings["out"]) / "report.md", settings_text("response", settings), page, console, structure.unread,
                      files)
         console.say(f"\nFiles\n  report.md, {', '.join(files)} in {settings['out']}")
-
-
-def page_of(curve, dof, name):
-    """The library's page about a curve, in the words of the command and with the node in place of the DOF."""
-    return in_words_of_the_command(curve.describe()).replace(f"DOF {dof} (counted from 0)", name)
 
 
 def output_dof(structure, settings):
@@ -146,5 +140,17 @@ def _on_basis(basis, dof, low, high, settings, progress, saved=None):
             with contextlib.suppress(PlmError):
                 parts = hbm.estimate_error(peak.branch, 0, dof, measure, progress=progress)
                 error = max(abs(parts.amplitude.total) / peak.amplitude, abs(parts.frequency_hz.total) / peak.frequency_hz)
+        larger = _beside(Response(peak.frequency_hz, peak.amplitude, error, curve, hbm), progress) if low is None else None
     told = [one.message for one in issued]
-    return Found(peak.frequency_hz, peak.amplitude, error, curve, peak.branch, None), told
+    if larger:
+        told.append(PlmWarning(f"beside the curve, at the same force, there is a stable motion of {larger.amplitude:.6g} at "
+                               f"{larger.frequency_hz:.6g} Hz, {larger.amplitude / peak.amplitude:.3g} times the peak: a disturbance or a force "
+                               "that was larger before may leave the structure there"))
+    return Found(peak.frequency_hz, peak.amplitude, error, curve, peak.branch, larger), told
+
+
+def _beside(response, progress):
+    """The larger motion beside a whole curve, as the call that does all of it looks for it."""
+    with contextlib.suppress(PlmError):  # where walls move, resonance is not told by its phase
+        response.hbm.find_isolated(response.curve, progress=progress)
+    return response.larger

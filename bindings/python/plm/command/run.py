@@ -10,7 +10,7 @@ from .. import _functions as constants
 from .._errors import PlmError
 from ..fe.errors import FileError
 from .arguments import read_arguments
-from .console import Console, in_words_of_the_command
+from .console import Console
 from .settings import Wrong
 
 ALL_WELL, LOOK_AT_IT, WRONG, FAILED, STOPPED = 0, 1, 2, 3, 130
@@ -34,7 +34,7 @@ def main(arguments=None):
     except (Wrong, FileError) as error:
         return _end(error, WRONG)
     except PlmError as error:
-        return _end(in_words_of_the_command(str(error)), WRONG if error.status in _REFUSED else FAILED)
+        return _end(error, WRONG if error.status in _REFUSED else FAILED)
     except (FileNotFoundError, FileExistsError, IsADirectoryError, NotADirectoryError, PermissionError) as error:
         return _end(_in_words(error), WRONG)
     except ValueError as error:
@@ -55,7 +55,8 @@ def _run(arguments):
     if settings["effort"] is not None:
         console.context.set_effort(settings["effort"])
     work = importlib.import_module(f".{command}", __package__)
-    work.run(settings, console)
+    with console.explaining():
+        work.run(settings, console)
     return LOOK_AT_IT if console.matters else ALL_WELL
 
 

@@ -31,7 +31,7 @@ class Structure:
                  is_preloaded=False):
         self.model, self.mesh, self.notes, self.unread = model, mesh, list(notes), list(unread)
         self.is_loaded, self.is_damped, self.first_load = is_loaded, is_damped, first_load
-        self.is_preloaded = is_preloaded
+        self.is_preloaded, self._names = is_preloaded, None
 
     def nodes(self, given, what):
         """Labels of nodes: of one, or of a set of the deck by its name."""
@@ -57,11 +57,10 @@ class Structure:
 
     def name_of(self, dof):
         """A DOF in words: its node and direction."""
-        for node in self.mesh.node_labels.tolist():
-            for direction, word in enumerate(("x", "y", "z", "rx", "ry", "rz"), 1):
-                if self.mesh.dof(node, direction) == dof:
-                    return f"node {node} {word}"
-        return f"DOF {dof}"
+        if self._names is None:  # one that stands for two, as the same rotation of nodes that are one, has its first name
+            self._names = {self.mesh.dof(node, direction): f"node {node} {word}" for node in reversed(self.mesh.node_labels.tolist())
+                           for direction, word in reversed([*enumerate(("x", "y", "z", "rx", "ry", "rz"), 1)])}
+        return self._names.get(dof, f"DOF {dof}")
 
     def one_dof(self, given, what, first=False):
         """The DOF of [node, direction]; first: of the first node of a set."""
@@ -94,7 +93,7 @@ def read_structure(settings, context):
 def assemble(settings, console, assume_damping=False):
     """The structure with all that the settings say, ready to be built."""
     structure = read_structure(settings, console.context)
-    model = structure.model
+    model, console.name_of = structure.model, structure.name_of
     for given in settings["fix"]:
         for node in structure.nodes(given[0], "fix"):
             model.fix_dofs(_fixed(structure, node, given[1]))

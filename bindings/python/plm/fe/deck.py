@@ -26,6 +26,11 @@ WITHOUT_EFFECT = {"HEADING", "PREPRINT", "RESTART", "NODEFILE", "NODEPRINT", "NO
                   "ENERGYOUTPUT", "ENERGYPRINT", "ENERGYFILE", "TIMEPOINTS", "CONTROLS", "SOLVERCONTROLS", "NOANALYSIS",
                   "MATRIXOUTPUT", "FILTER", "DIAGNOSTICS", "AMPLITUDE"}
 
+# Of materials: what counts with temperatures alone, which are listed themselves.
+WITHOUT_EFFECT |= {"EXPANSION", "CONDUCTIVITY", "SPECIFICHEAT"}
+# Sections of elements that CalculiX makes no matrices of: those that are handed over have them.
+WITHOUT_EFFECT |= {"BEAMSECTION", "BEAMGENERALSECTION", "SHELLSECTION", "SHELLGENERALSECTION", "MEMBRANESECTION", "TRANSVERSESHEARSTIFFNESS"}
+
 
 class Deck:
     """A structure as files of other codes describe it.

@@ -24,6 +24,11 @@ class Scope:
         """The name by which the deck knows what this scope calls so."""
         return f"{self.name}.{name.upper()}" if self.name else name.upper()
 
+    @property
+    def is_turned(self):
+        """Whether the instance stands otherwise than its part."""
+        return self.place is not None and not numpy.array_equal(self.place[0], numpy.eye(3))
+
     def put(self, xyz):
         """Coordinates (n x 3) where the instance stands."""
         return xyz if self.place is None else xyz @ self.place[0].T + self.place[1]

@@ -97,24 +97,65 @@ def _check_elements(deck):
     return groups
 
 
+class _Short(Names):
+    """Names that CalculiX takes as they are: without blanks and quotes, and not longer than it reads."""
+
+    def __init__(self, word):
+        super().__init__()
+        self.word = word
+
+    def add(self, name):
+        """True where the name is new."""
+        new = name not in self
+        if new:
+            self[name.upper()] = f"{self.word}{len(self)}"
+        return new
+
+
 def _properties(deck):
-    """Materials and sections as they stand in the deck; their element sets under short names, which CalculiX limits."""
-    lines, sets, seen = [], Names(), set()
-    for block in deck.property_blocks:
-        if block.key == "MASS" or (block.file, block.number) in seen and block.key not in SECTIONS:
+    """Materials and sections as they stand in the deck, under short names."""
+    lines, seen = [], set()
+    short = {"ELSET": _Short("PART"), "MATERIAL": _Short("MATERIAL"), "ORIENTATION": _Short("AXES")}
+    blocks = [block for block in deck.property_blocks if block.key != "MASS"]
+    for block in blocks:  # a section may stand before what it names
+        if block.key in ("MATERIAL", "ORIENTATION"):
+            short[block.key].add(_defined(block))
+    for block in blocks:
+        if (block.file, block.number) in seen and block.key not in SECTIONS:
             continue
         seen.add((block.file, block.number))
-        text = block.text
-        if block.key in SECTIONS:
-            name = deck.section_set(block)
-            if name not in sets:
-                sets[name.upper()] = f"PART{len(sets)}"
-                lines.append(f"*ELSET, ELSET={sets[name]}")
-                lines += [f"{label}," for label in deck.element_sets[name].tolist()]
-            rest = "".join(f", {key}={value}" for key, value in block.parameters.items() if key in ("MATERIAL", "ORIENTATION"))
-            text = f"*{SECTIONS[block.key]}, ELSET={sets[name]}{rest}"
-        lines.append(text)
+        lines += _section_lines(deck, block, short) if block.key in SECTIONS else [_card(block, short)]
         lines += [line.text for line in block.lines]
-    if not sets:
+    if not short["ELSET"]:
         raise FileError(deck.path, 0, "the deck has no sections (*SOLID SECTION), so CalculiX can make no matrices of it")
     return lines
+
+
+def _defined(block):
+    """The name of a material or of axes, which turn with the instance that they are in."""
+    if block.key == "ORIENTATION" and block.scope.is_turned:
+        block.fail("*ORIENTATION in an instance that is turned, with which its axes would turn; this is not read, give the axes outside of "
+                   "the part, as they stand in the end")
+    return block.needed("NAME")
+
+
+def _card(block, short):
+    """A card of a material, of axes or of what a material has."""
+    if block.key not in short:
+        return block.text
+    rest = "".join(f", {key}={value}" if value else f", {key}" for key, value in block.parameters.items() if key != "NAME")
+    return f"*{block.key}, NAME={short[block.key][block.needed('NAME')]}{rest}"
+
+
+def _section_lines(deck, block, short):
+    name, lines = deck.section_set(block), []
+    if short["ELSET"].add(name):
+        lines.append(f"*ELSET, ELSET={short['ELSET'][name]}")
+        lines += [f"{label}," for label in deck.element_sets[name].tolist()]
+    text = f"*{SECTIONS[block.key]}, ELSET={short['ELSET'][name]}"
+    for key in ("MATERIAL", "ORIENTATION"):
+        if key in block:
+            if block.get(key) not in short[key]:
+                block.fail(f"there is no *{key} of the name {block.get(key)}")
+            text += f", {key}={short[key][block.get(key)]}"
+    return [*lines, text]

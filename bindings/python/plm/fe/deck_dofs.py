@@ -1,4 +1,4 @@
-"""Rows of a deck's model: those of its matrices, and more for reference nodes, which no element gives any."""
+"""Rows of a deck's model: those of its matrices, and more for reference nodes and their followers, which no element gives any."""
 import numpy
 
 from .deck_elements import faces_of, is_sheet
@@ -56,9 +56,19 @@ class DofMap:
             elif turns:
                 for direction in ROTATIONS:
                     self._add(node, direction)
+            if coupling.kind != "distributing":
+                self._add_followers(coupling)
         for equation in deck.equations:
             for node, direction, _ in equation.terms:
                 if node not in self._solid or direction < 4:
+                    self._add(node, direction)
+
+
+    def _add_followers(self, coupling):
+        """Nodes of no element that follow a reference, as the end of an arm on which a load acts."""
+        for node in coupling.nodes.tolist():
+            if node not in self._turning and node not in self._solid and not any((node, d) in self._row for d in range(1, 7)):
+                for direction in coupling.directions:
                     self._add(node, direction)
 
 

@@ -210,6 +210,8 @@ def _included(block, folder, parents):
         block.fail("the name of the included file has a zero byte")
     if len(parents) >= INCLUDES_DEEP:
         block.fail(f"files include one another more than {INCLUDES_DEEP} deep")
+    if os.sep == "/":
+        name = name.replace("\\", os.sep)  # a deck written on Windows
     for place in (os.path.dirname(block.file), folder):
         path = os.path.abspath(os.path.join(place, name))
         if path in parents:

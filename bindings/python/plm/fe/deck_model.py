@@ -1,4 +1,5 @@
 """A deck as a plm.Model: matrices, supports, constraints, contact, loads."""
+import re
 import warnings
 
 import numpy
@@ -68,18 +69,34 @@ def _add_coordinates(deck, model):
 
 
 class _naming:
-    """What the library refuses of one record comes with the record's place in the deck."""
+    """What the library refuses of one record, or warns of, comes with the record's place in the deck. nodes: the labels of those that
+    it counts from 0."""
 
-    def __init__(self, record):
-        self._record = record
+    def __init__(self, record, nodes=()):
+        self._record, self._nodes = record, nodes
 
     def __enter__(self):
+        self._catching = warnings.catch_warnings(record=True)
+        self._issued = self._catching.__enter__()
+        warnings.simplefilter("always")
         return self
 
     def __exit__(self, kind, error, trace):
+        self._catching.__exit__(kind, error, trace)
+        for one in self._issued:
+            warnings.warn(self._in_place(one.message), stacklevel=5)
         if isinstance(error, PlmError):
-            raise FileError(self._record.file, self._record.line, str(error)) from error
+            raise FileError(self._record.file, self._record.line, self._in_labels(error)) from error
         return False
+
+    def _in_place(self, warning):
+        if not isinstance(warning, PlmWarning):
+            return warning
+        return PlmWarning(f"{self._record.file}:{self._record.line}: {self._in_labels(warning)}", warning.status, warning.reason)
+
+    def _in_labels(self, text):
+        return re.sub(r"\bnode (\d+) \(counted from 0\)", lambda found: f"node {self._nodes[int(found[1])]}" if len(self._nodes) else found[0],
+                      str(text))
 
 
 def _with_matrices(deck, context, options):
@@ -145,8 +162,8 @@ def _add_constraints(deck, model, surfaces):
             _add_coupling(deck, model, coupling)
     _hold_idle_rotations(deck, model)
     for tie in deck.ties:
-        with _naming(tie):
-            slave = deck.surfaces[tie.slave].nodes
+        slave = deck.surfaces[tie.slave].nodes
+        with _naming(tie, slave):
             dof, xyz, faces = surfaces.table(tie.master)
             tolerance = tie.tolerance or TIE_TOLERANCE * mean_side(xyz, faces)
             model.add_tie(deck._dofs().rows(slave), deck.coordinates[deck.node_rows(slave)], dof, xyz, faces, tolerance)
