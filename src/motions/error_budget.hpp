@@ -26,6 +26,8 @@ class ErrorBudget {
     double step_to_last_model() const { return 30 * accuracy_; }
     /// Newton's corrections of motions on a compressed model where a step takes a tenth of a second.
     double dear_motions() const { return 3e-2 * accuracy_; }
+    /// What a peak that is a corner may be higher by: halving a step ten times gets there.
+    double corner() const { return 1e-3 * accuracy_; }
     /// Newton's corrections of a first look: what a few harmonics leave out is much more.
     double look() const { return 1e-2 * accuracy_; }
     /// What the first basis of a refinement leaves out of the motions that it is made of: their amplitudes
@@ -37,6 +39,9 @@ class ErrorBudget {
     static constexpr double peak_of_harmonics = 0.1;
     /// Of what a basis or a compressed model left out of the motions when that was too much: the next one.
     static constexpr double next_try = 0.3;
+
+    /// An estimate beyond tells that an answer is poor, and no more how poor.
+    static constexpr double trusted = 0.1;
 
     /// For the log. harmonics: what they may leave out, which can be set by hand.
     std::string text(double harmonics) const {

@@ -1,7 +1,9 @@
 #include "motions/peak_search.hpp"
 #include "motions/branch_path.hpp"
+#include "motions/error_budget.hpp"
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace plm {
 namespace {
@@ -12,6 +14,7 @@ constexpr double least_tolerance = 1e-12; // rounding of a period of the flow
 
 bool PeakSearch::run(const Branch &branch, const std::array<std::int64_t, 3> &around, BranchPoint &highest) {
     for (int k = 0; k < 3; ++k) load(branch, around[k], three_[k]);
+    of_curve_ = three_;
     set_chord();
     if (!is_exact() && !solve_triple()) {
         above_ = rise();
@@ -25,8 +28,40 @@ bool PeakSearch::run(const Branch &branch, const std::array<std::int64_t, 3> &ar
     above_ = settled ? 0 : rise();
     if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - same_height)) best = top;
     above_ = std::max(0.0, above_ - (best.amplitude / top.amplitude - 1));
+    if (!settled) climb(best);
     highest = std::move(best.point);
     return true;
+}
+
+// Where contact begins the curve may turn at a corner, and no chord leads there: on in frequency, away from
+// the nearest lower point of the curve, in steps that are halved where the motion is lost or gains less.
+void PeakSearch::climb(Sample &best) {
+    const double enough = ErrorBudget(options_.accuracy).corner();
+    constexpr double as_before = 0.7; // less is gained beyond the corner
+    constexpr int most_solved = 40;
+    const auto far = [&](const Sample &s) {
+        const double length = metric_.length(difference(best.at, s.at));
+        return s.amplitude < best.amplitude ? length : INFINITY;
+    };
+    Sample before = *std::min_element(of_curve_.begin(), of_curve_.end(),
+                                      [&](const auto &a, const auto &b) { return far(a) < far(b); });
+    if (std::isinf(far(before))) return;
+    chord_ = {vector<double>(best.at.x.size(), 0.0), 1.0};
+    scale_by(1 / metric_.length(chord_), chord_);
+    double step = 1, rise = INFINITY; // step: of that from before to best
+    for (int k = 0; k < most_solved && rise > enough; ++k) {
+        Sample next = best;
+        add(step, difference(best.at, before.at), next.at);
+        const double expected = step * (best.amplitude - before.amplitude);
+        if (solved(next) && next.amplitude - best.amplitude > as_before * expected) {
+            before = std::exchange(best, std::move(next));
+            step = 1;
+        } else {
+            step *= 0.5;
+        }
+        rise = step * (1 - before.amplitude / best.amplitude);
+    }
+    above_ = rise;
 }
 
 bool PeakSearch::is_exact() const {
@@ -123,11 +158,16 @@ bool PeakSearch::corrected(double s, Sample &out) {
     scale_by(la, out.at);
     add(lb, b.at, out.at);
     add(lc, c.at, out.at);
+    out.s = s;
+    return solved(out);
+}
+
+// From its first guess, across the chord.
+bool PeakSearch::solved(Sample &out) {
     NewtonLimits limits = newton_limits(options_);
     limits.aim = std::max(1e-3 * limits.tolerance, least_tolerance); // for small differences
     const NewtonOutcome found = newton_across(equations_, metric_, chord_, limits, out.at);
     if (!found.converged) return false;
-    out.s = s;
     out.point = equations_.solved_point(out.at, found.residual, found.iterations);
     Branch one(reduced_, options_.force_scale, options_.period_multiple);
     one.append(out.point);

@@ -42,6 +42,8 @@ class PeakSearch {
     void set_chord();
     double vertex() const;
     bool corrected(double s, Sample &out);
+    bool solved(Sample &out);
+    void climb(Sample &best);
 
     PeriodicEquations &equations_;
     const MotionOptions &options_;
@@ -49,7 +51,7 @@ class PeakSearch {
     std::shared_ptr<const ReducedModel> reduced_;
     Output of_;
     Watch watch_;
-    std::array<Sample, 3> three_;
+    std::array<Sample, 3> three_, of_curve_; // the latter its highest point between its neighbours
     Metric metric_;
     PathState origin_, chord_; // the latter of length 1
     double first_ = 0, last_ = 1, span_ = 1, above_ = NAN;

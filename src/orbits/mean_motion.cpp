@@ -60,30 +60,4 @@ double square_after(const Branch &curve, const BranchPoint &begin, Watch watch) 
     return square - dot(n, mean.data(), mean.data());
 }
 
-double amplitude_after(const Branch &curve, const BranchPoint &begin, const Output &of, Watch watch) {
-    constexpr double disturbed = 1.01;
-    constexpr int leaving = 200, watched = 50; // periods
-    const auto model = std::make_shared<FlowModel>(curve.reduced_model(), begin.omega);
-    ExactFlow flow(model, begin.omega, begin.force_scale, watch, std::make_shared<ContactModesKept>(model));
-    FlowState state = start_of(*model, begin, curve.period_multiple());
-    for (double &v : state.v) v *= disturbed;
-    flow.complete(state);
-    const double period = static_cast<double>(curve.period_multiple()) * flow.period();
-    flow.advance(state, leaving * period);
-    const vector<double> of_dof = model->dof_row(of.dof);
-    Matrix row(1, model->size());
-    std::copy(of_dof.begin(), of_dof.end(), row.data());
-    const KnownMotion known = curve.reduced().model->known_motion(of.dof, begin.omega, begin.force_scale);
-    double most = 0;
-    for (int k = 1; k <= watched; ++k) {
-        RecordedMotion record;
-        flow.advance(state, (leaving + k) * period, &record);
-        const ValueRange range = record.ranges(row, known, begin.omega)[0];
-        most = std::max(most, of.measure == Measure::peak
-                                  ? std::max(std::abs(range.minimum), std::abs(range.maximum))
-                                  : 0.5 * (range.maximum - range.minimum));
-    }
-    return most;
-}
-
 } // namespace plm

@@ -22,8 +22,4 @@ MeanMotion mean_motion(std::shared_ptr<const ReducedModel> reduced, const Branch
 /// motion began.
 double square_after(const Branch &curve, const BranchPoint &begin, Watch watch);
 
-/// The largest amplitude over a period (peak or half peak to peak) that the structure comes to from that
-/// motion of a curve, disturbed a little, once it has left what is not stable.
-double amplitude_after(const Branch &curve, const BranchPoint &begin, const Output &of, Watch watch);
-
 } // namespace plm

@@ -4,6 +4,7 @@
 #include "motions/curve_verdicts.hpp"
 #include "motions/effort_budget.hpp"
 #include "motions/error_budget.hpp"
+#include "orbits/larger_in_time.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
@@ -90,8 +91,9 @@ class Chain {
     // Where it tells of a larger motion, or of none beyond its own error: then that is known, and what part
     // of a curve leaves out is not.
     bool is_worth_more(const ComputedResponse &first, const ComputedResponse &part) const {
-        const double highest = (1 + whole_error(first)) * first.peak.amplitude; // NaN: not known
-        return highest >= part.peak.amplitude || says_more(*first.curve, *part.curve, watch_);
+        const double error = whole_error(first); // NaN: not known
+        return (error <= ErrorBudget::trusted && (1 + error) * first.peak.amplitude >= part.peak.amplitude) ||
+               says_more(*first.curve, *part.curve, watch_);
     }
 
     // What finds nothing is no failure where there is an answer already.
@@ -220,7 +222,7 @@ class Chain {
             r.error = NAN;
         if (r.larger) watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.larger, known(r)));
         if (r.in_time)
-            watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.in_time, known(r)));
+            watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.in_time, r.peak.amplitude));
         if (spent_ && !(r.error <= options_.accuracy))
             r.warnings.add(
                 reason::effort,
@@ -234,7 +236,9 @@ class Chain {
     }
 
     void look_beside(ComputedResponse &r) const {
-        within(effort_left(), [&] { r.in_time = find_larger_in_time(known(r), watch_); });
+        within(effort_left(), [&] {
+            r.in_time = find_larger_in_time(*r.curve, output_, r.peak.amplitude, options_.accuracy, watch_);
+        });
         const bool all = within(effort_left(), [&] { r.larger = find_larger_motion(known(r), watch_); });
         r.looked_beside =
             all && !r.basis->reduced()->whole_contact().moves(); // then resonances do not show it

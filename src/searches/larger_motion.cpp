@@ -1,11 +1,9 @@
 #include "searches/larger_motion.hpp"
 #include "hbm/harmonic_choice.hpp"
 #include "hbm/make_system.hpp"
-#include "linalg/work.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/curve_verdicts.hpp"
 #include "motions/effort_budget.hpp"
-#include "orbits/mean_motion.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_points.hpp"
 #include "orbits/stationary_force.hpp"
@@ -246,45 +244,6 @@ std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch
         watch.log(1, std::string("the search beside the curve ended early: ") + e.what());
     }
     return best;
-}
-
-std::optional<MotionInTime> find_larger_in_time(const KnownResponse &known, Watch watch) {
-    constexpr std::size_t most_marched = 12; // frequencies
-    constexpr double comparable = 0.5;       // of the peak
-    const Branch &curve = *known.curve;
-    const Output &of = known.output;
-    if (of.measure != Measure::peak && of.measure != Measure::half_peak_to_peak) return std::nullopt;
-    vector<std::int64_t> at;
-    for (const std::int64_t i : left_for_others(curve))
-        if (curve.points()[static_cast<std::size_t>(i)].motion &&
-            curve.amplitude(i, of.dof, of.measure, of.harmonic) > comparable * known.amplitude)
-            at.push_back(i);
-    MotionInTime largest;
-    const auto march = [&] {
-        const std::size_t n = std::min(most_marched, at.size());
-        for (std::size_t k = 0; k < n; ++k) {
-            const BranchPoint &begin =
-                curve.points()[static_cast<std::size_t>(at[(2 * k + 1) * at.size() / (2 * n)])];
-            const double reached = amplitude_after(curve, begin, of, watch);
-            if (reached > largest.amplitude) largest = {begin.omega / (2 * M_PI), reached};
-        }
-    };
-    try {
-        within(std::max(EffortBudget::aside, EffortBudget::half * effort_left()), march);
-    } catch (const Error &e) { // chatter: what was reached until then counts
-        if (e.status() == status::cancelled || e.status() == status::memory) throw;
-    }
-    if (!(largest.amplitude > (1 + known.options.accuracy) * known.amplitude)) return std::nullopt;
-    return largest;
-}
-
-std::string words_for(const MotionInTime &larger, const KnownResponse &known) {
-    return format(
-        "the curve is not stable everywhere: in time the structure leaves it, and at %.6g Hz, where "
-        "that was followed, comes to %.6g, %.4g times the peak, in a motion that may repeat after "
-        "several periods of the excitation or not at all. March in time there, or follow a curve "
-        "with \"period_multiple\" of 2 or more",
-        larger.frequency_hz, larger.amplitude, larger.amplitude / known.amplitude);
 }
 
 std::string words_for(const LargerMotion &larger, const KnownResponse &known) {

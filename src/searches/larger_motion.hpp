@@ -28,9 +28,4 @@ std::optional<LargerMotion> find_larger_motion(const KnownResponse &known, Watch
 /// What is said of it.
 std::string words_for(const LargerMotion &larger, const KnownResponse &known);
 
-/// Where a curve of exact motions is not stable, but beside its folds, time marching tells what the structure
-/// does instead: the largest amplitude from some of these motions on, where that is more than the peak.
-std::optional<MotionInTime> find_larger_in_time(const KnownResponse &known, Watch watch);
-std::string words_for(const MotionInTime &larger, const KnownResponse &known);
-
 } // namespace plm
