@@ -730,6 +730,8 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
  * the curve are looked for at the same force, for about as much work as the curve took: PLM_WARNING with
  * PLM_REASON_LARGER_MOTION where a stable one is larger than the peak; "larger_amplitude" and "larger_frequency_hz" of hbm
  * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
+ * The same reason where the curve is not stable, beside its folds, and the structure, marched in time from there, comes to
+ * more than the peak.
  * error is an upper bound of the relative error of amplitude and frequency, and NaN on a curve that ended early or has no
  * peak inside. PLM_WARNING says what of the accuracy was not reached and what else should be looked at, with the reasons of
  * plm_sampler_run, plm_basis_build, plm_hbm_sweep and plm_hbm_find_peak; PLM_TRUNCATED and PLM_NOT_CONVERGED as for a

@@ -109,7 +109,7 @@ void pairs_that_touch_exactly(void **) {
                 assert_true(below(std::abs(rest.penetration[i] - (i % 3 == 0   ? 0.5 / k
                                                                   : i % 3 == 1 ? -0.1
                                                                                : 0)),
-                                  1e-11 * (1 + 1 / k)));
+                                  3e-11 * (1 + 1 / k)));
         }
 }
 
