@@ -145,7 +145,7 @@ def a_peak_without_effort_says_by_how_much_it_may_be_higher():
         highest = hbm.find_peak(curve, m["out"], measure="peak").amplitude
     above = [float(t) for w in said for t in re.findall(r"higher by about (\S+) of itself", str(w.message))]
     assert highest == curve.amplitude(m["out"], "peak").max() < peak, (highest, peak)
-    assert len(above) == 1 and peak / highest - 1 < above[0] < 0.01, (above, peak / highest - 1)
+    assert len(above) == 1 and peak / highest - 1 < above[0] < 0.02, (above, peak / highest - 1)
 
 
 for test in (two_bases_that_agree_tell_what_no_estimate_does, a_step_that_crosses_to_a_closed_curve_is_found_out,

@@ -621,9 +621,9 @@ PLM_API plm_status plm_model_set_gap_motion(plm_model *model, int32_t harmonic, 
  * M, K and C act through the supports as they do among the free DOFs: a dashpot to a support needs its entries there. Modal
  * damping, structural damping and the stiffness part of Rayleigh's damp the relative motion, the mass part and the matrix C
  * the absolute one. A row of the gap matrix that the base moves, as against a wall that stands still, has a gap that moves
- * (plm_model_set_gap_motion says what follows); that takes PLM_DISPLACEMENT, or plm_model_build refuses. A row with
- * a support in it is a wall that moves with the support. It is excitation: force_scale multiplies it; it belongs to the build
- * and is not changed after it. real = NULL removes harmonic h. */
+ * (plm_model_set_gap_motion says what follows), of a given velocity or acceleration by another amount at every frequency. A
+ * row with a support in it is a wall that moves with the support. It is excitation: force_scale multiplies it; it belongs to
+ * the build and is not changed after it. real = NULL removes harmonic h. */
 #define PLM_DISPLACEMENT 0
 #define PLM_VELOCITY 1
 #define PLM_ACCELERATION 2
@@ -723,11 +723,11 @@ PLM_API plm_status plm_model_get_finding(plm_model *model, int64_t index, int32_
 /* The whole way in one call, for a built model with an excitation: the response curve around the resonance that the
  * excitation drives most, and its peak at DOF `dof`. measure: PLM_PEAK, PLM_HALF_PEAK_TO_PEAK or PLM_RMS. accuracy: the
  * relative error that the peak may have, 1e-8 to 0.5 (1e-3 is usual); sampler, window, basis, motion and harmonics follow
- * from it: the basis grows until the error it makes is estimated (as by plm_hbm_estimate_error; where that does not
- * converge, by what a clearly larger basis changes) to be within. Outputs: frequency (Hz) and amplitude of the peak;
+ * from it: the curve is followed on the unreduced structure, as far as its motions need that, or on a basis that is refined,
+ * until what either leaves out is estimated to be within. Outputs: frequency (Hz) and amplitude of the peak;
  * error: that estimate, NaN where there is none, or NULL; curve: or NULL; hbm: the solver that computed it, to go on with
  * (other points, isolated branches, stability), with its basis behind it, or NULL. With pre-load or gaps motions beside
- * the curve are looked for at the same force, for no more work than the curve took: PLM_WARNING with
+ * the curve are looked for at the same force, for about as much work as the curve took: PLM_WARNING with
  * PLM_REASON_LARGER_MOTION where a stable one is larger than the peak; "larger_amplitude" and "larger_frequency_hz" of hbm
  * are the highest one, and its curve with the force scales between which that exists is the first of plm_hbm_get_found.
  * The same reason where the curve is not stable, beside its folds, and the structure, marched in time from there, comes to
@@ -884,10 +884,12 @@ PLM_API plm_status plm_hbm_save_every(plm_hbm *hbm, int64_t n_points, const char
 PLM_API plm_status plm_hbm_resume(plm_hbm *hbm, plm_branch *branch, plm_branch **resumed);
 /* The same at several levels of the excitation, force_scale[n] in place of the option "force_scale", in any order. count:
  * curves found, read by plm_hbm_get_found in the order of their levels; each says its "force_scale", its warnings and how it
- * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, and where many
- * pairs open and close the others go on from the coordinates that its motions needed, checked at each level as in a sweep
- * of it alone: less work than as many sweeps. PLM_NOT_CONVERGED or PLM_TRUNCATED, with the level in the words, where a
- * curve ended early or a level (without a curve then) has no first motion; PLM_CANCELLED with those found before. */
+ * ended, and may cost what plm_context_set_effort allows a sweep. The largest level is followed first, each of the others
+ * along the one before it, checked as in a sweep of it alone: where that shows the way its steps are up to three times as
+ * long as "max_step", so that it has fewer points, and where many pairs open and close it goes on from the coordinates that
+ * the motions before it needed. Less work than as many sweeps. PLM_NOT_CONVERGED or PLM_TRUNCATED, with the level in the
+ * words, where a curve ended early or a level (without a curve then) has no first motion; PLM_CANCELLED with those found
+ * before. */
 PLM_API plm_status plm_hbm_sweep_levels(plm_hbm *hbm, int64_t n, const double *force_scale, int64_t *count);
 /* Response at one frequency. start: branch whose point `point` is the first guess (same basis), or NULL for a cold
  * start. PLM_ERR_CONVERGENCE when no strategy converges; PLM_WARNING with PLM_REASON_OUTSIDE_BASIS as for a sweep. */
@@ -917,7 +919,9 @@ PLM_API plm_status plm_hbm_switch_branch(plm_hbm *hbm, plm_branch *branch, int64
  * force that falls with growing amplitude, a closed branch exists; it is entered there and traced. force_max: largest
  * force scale looked at, 0: eight times "force_scale". count: branches found, read by plm_hbm_get_found. Where curves are
  * made of exact motions ("motion"), the backbone of this search has few harmonics, branches and the forces between which
- * they exist are exact, and what exists only with few harmonics is left out. */
+ * they exist are exact, and what exists only with few harmonics is left out. Where plm_hbm_find_peak found the peak of
+ * main_branch before, the one with the largest stable motion above it comes first: "larger_amplitude" and
+ * "larger_frequency_hz" of hbm are that motion. */
 PLM_API plm_status plm_hbm_find_isolated(plm_hbm *hbm, plm_branch *main_branch, double force_max, int64_t *count);
 /* The phase-resonant backbones in the frequency range: frequency and amplitude of the resonance against the force. The
  * points of each carry their own "point_force_scale". Exact where curves are made of exact motions ("motion"), with their
@@ -1040,8 +1044,8 @@ PLM_API plm_status plm_branch_write_csv_to(plm_branch *branch, int64_t dof, int3
 /* A page of text about the curve, to be printed or kept with the results: model and what was left out, basis, curve with
  * its folds and bifurcations, peak, stability, other motions at this force, error and by what it was judged, warnings with
  * their remedies, times. Peak, error and larger motions are those that earlier calls found of this curve:
- * plm_model_compute_response(), else plm_hbm_find_peak(), and plm_hbm_estimate_error() at that peak; of what no call has
- * looked for it says so. Lines end with a newline and have about a hundred characters at most; DOFs count from 0. */
+ * plm_model_compute_response(), else plm_hbm_find_peak(), and plm_hbm_estimate_error() at that peak and
+ * plm_hbm_find_isolated() after it; of what no call has looked for it says so. Lines end with a newline and have about a hundred characters at most; DOFs count from 0. */
 PLM_API plm_status plm_branch_describe(plm_branch *branch, int64_t capacity, char *buffer, int64_t *needed);
 
 /* ---- Transient: motion in time ----------------------------------------------------------------------------------
