@@ -36,35 +36,32 @@ double flops_of_run(const ExactFlow &flow, std::int64_t periods, std::size_t n_e
 
 // The flag is safe when the multipliers are farther from the unit circle than they are uncertain.
 struct Verdict {
+    explicit Verdict(vector<std::complex<double>> of = {}) : multipliers(std::move(of)) {
+        for (const std::complex<double> &m : multipliers) {
+            margin = std::min(margin, std::abs(std::abs(m) - 1));
+            n_outside += std::abs(m) > 1;
+        }
+    }
+    vector<std::complex<double>> multipliers; // the largest first
     double margin = 1;
     std::int64_t n_outside = 0;
-    vector<double> moduli; // the largest first
 };
-Verdict verdict_of(const Matrix &monodromy) {
-    Verdict v;
-    for (const std::complex<double> &m : multipliers(monodromy)) {
-        v.margin = std::min(v.margin, std::abs(std::abs(m) - 1));
-        v.n_outside += std::abs(m) > 1;
-        v.moduli.push_back(std::abs(m));
-    }
-    return v;
-}
 
 // Whether a step that is `shorter` times the last one changes nothing any more. Near grazing multipliers
 // change with the root of the penetration, elsewhere less.
 bool is_settled(const Verdict &before, const Verdict &now, double shorter) {
-    if (before.n_outside != now.n_outside || before.moduli.size() != now.moduli.size()) return false;
+    if (before.n_outside != now.n_outside || before.multipliers.size() != now.multipliers.size())
+        return false;
     double change = 0;
-    for (std::size_t i = 0; i < now.moduli.size(); ++i)
-        change = std::max(change, std::abs(now.moduli[i] - before.moduli[i]));
+    for (std::size_t i = 0; i < now.multipliers.size(); ++i)
+        change = std::max(change, std::abs(std::abs(now.multipliers[i]) - std::abs(before.multipliers[i])));
     return change * std::sqrt(shorter) <= settled * now.margin;
 }
 
 // Chatter, overflow, a mode too fast for the exponential, a singular system: no answer.
-template <class Search> Matrix found_by(const Search &search) {
+template <class Search> vector<std::complex<double>> found_by(const Search &search) {
     try {
-        Matrix found = search();
-        return all_finite(found.data(), found.rows() * found.cols()) ? std::move(found) : Matrix();
+        return search();
     } catch (const Error &e) {
         if (e.status() == status::cancelled || e.status() == status::memory) throw;
         return {};
@@ -80,8 +77,10 @@ EventSequence contact_events(const ReducedModel &m, const BranchPoint &point, st
 
 // Where no pair switches the solution is exact. Elsewhere the instants of harmonic balance are those of a
 // nearby motion, to whose shifts a stiff contact's multipliers answer with a factor of ten.
-Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
-                               const EventSequence &sequence, const Matrix &within) {
+vector<std::complex<double>> MotionBeside::multipliers(std::shared_ptr<const FlowModel> model,
+                                                       const BranchPoint &point,
+                                                       const EventSequence &sequence, const Matrix &within,
+                                                       const OfMonodromy &of) {
     if (model != model_) {
         model_ = model;
         modes_ = std::make_shared<ContactModesKept>(model);
@@ -89,61 +88,64 @@ Matrix MotionBeside::monodromy(std::shared_ptr<const FlowModel> model, const Bra
     ExactFlow flow(model, point.omega, point.force_scale, Watch(), modes_);
     if (sequence.events.empty())
         return found_by([&] {
-            return plm::monodromy(*model, {{flow.period() * static_cast<double>(periods_), sequence.first}});
+            const double duration = flow.period() * static_cast<double>(periods_);
+            return of(plm::monodromy(*model, {{duration, sequence.first}}));
         });
     const double omega = point.omega / static_cast<double>(periods_);
     const FlowState start = model->state(point.eta_0, point.eta, omega, 0.0);
     const double flops = flops_of_run(flow, periods_, sequence.events.size());
-    Matrix found;
-    if (flops > of_curve) found = found_by([&] { return by_events(flow, start, sequence, within); });
-    if (found.rows() > 0 || flops > affordable_) return found;
+    vector<std::complex<double>> found;
+    if (flops > of_curve) found = found_by([&] { return by_events(flow, start, sequence, within, of); });
+    if (!found.empty() || flops > affordable_) return found;
     if (static_cast<std::int64_t>(correction_.size()) == model->state_size())
-        found = found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within); });
-    return found.rows() > 0 ? found : found_by([&] { return newton(flow, start, start, within); });
+        found =
+            found_by([&] { return newton(flow, start, moved(*model, start, correction_, 1), within, of); });
+    return !found.empty() ? found : found_by([&] { return newton(flow, start, start, within, of); });
 }
 
 // With the events of the solution, as long as no other ones come in. On a surface with many pairs some barely
 // touch, and their events find no rest; what does not change from step to step does not hang on them.
-Matrix MotionBeside::by_events(const ExactFlow &flow, const FlowState &start, EventSequence sequence,
-                               const Matrix &within) {
+vector<std::complex<double>> MotionBeside::by_events(const ExactFlow &flow, const FlowState &start,
+                                                     EventSequence sequence, const Matrix &within,
+                                                     const OfMonodromy &of) {
     EventMotion motion(flow.model(), flow.omega(), flow.force_scale(), periods_, within);
     const EnergyNorm norm(flow);
     Verdict verdict;
     for (int k = 0; k < event_steps; ++k) {
         if (!motion.solve(sequence)) return {};
         if (norm.distance(motion.start(), start) > same_motion * motion.size()) return {};
-        const Verdict now = verdict_of(motion.monodromy());
-        if (motion.is_consistent() && motion.shift() <= std::max(exact_shift, safe_shift * now.margin))
-            return motion.monodromy();
-        if (k > 0 && now.n_outside != verdict.n_outside) return {};
-        verdict = now;
+        const Verdict before = std::exchange(verdict, Verdict(of(motion.monodromy())));
+        if (motion.is_consistent() && motion.shift() <= std::max(exact_shift, safe_shift * verdict.margin))
+            return verdict.multipliers;
+        if (k > 0 && verdict.n_outside != before.n_outside) return {};
         sequence = motion.moved(sequence);
     }
-    return motion.monodromy();
+    return verdict.multipliers;
 }
 
-Matrix MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within) {
+vector<std::complex<double>> MotionBeside::newton(ExactFlow &flow, const FlowState &start, FlowState now,
+                                                  const Matrix &within, const OfMonodromy &of) {
     const FlowModel &model = flow.model();
     const EnergyNorm norm(flow);
     double before = INFINITY;
     Verdict verdict;
-    Matrix safe; // of the last run that was that near to a motion
+    vector<std::complex<double>> safe; // of the last run that was that near to a motion
     for (int k = 0; k < max_steps; ++k) {
         const PeriodRun run = run_periods(flow, now, periods_);
-        Matrix matrix = plm::monodromy(model, run.intervals, 1e-15, Watch(), modes_.get());
+        const Matrix matrix = plm::monodromy(model, run.intervals, 1e-15, Watch(), modes_.get());
         FlowState next = moved(model, now, period_step(model, now, run, matrix, within), 1);
         const double step = run.size > 0 ? norm.distance(next, now) / run.size : 0;
         if (!std::isfinite(step) || norm.distance(next, start) > same_motion * run.size) return {};
         if (k >= may_wander && step > contraction * before) return safe;
         now = std::move(next);
-        const Verdict last = std::exchange(verdict, step > exact_state ? verdict_of(matrix) : Verdict());
+        const Verdict last = std::exchange(verdict, Verdict(of(matrix)));
         const double shorter = step / std::exchange(before, step);
         if (step > exact_state && !is_settled(last, verdict, shorter)) {
-            if (step <= safe_state * verdict.margin) safe = std::move(matrix);
+            if (step <= safe_state * verdict.margin) safe = verdict.multipliers;
             continue;
         }
         keep_correction(model, start, now);
-        return matrix;
+        return verdict.multipliers;
     }
     return safe;
 }

@@ -4,6 +4,7 @@
 #include "motions/branch.hpp"
 #include "orbits/event_motion.hpp"
 #include "orbits/exact_flow.hpp"
+#include <functional>
 
 namespace plm {
 
@@ -18,22 +19,27 @@ class MotionBeside {
         : periods_(period_multiple), affordable_(affordable) {}
     /// Where points of a whole curve ask: above, that would take minutes.
     static constexpr double of_curve = 3e7;
-    /// The monodromy matrix of the exact motion beside `point`; empty when a few steps of Newton's method do
-    /// not lead to a motion that the point describes, or when the flow would take longer than allowed.
+    /// Multipliers of a monodromy matrix.
+    using OfMonodromy = std::function<vector<std::complex<double>>(const Matrix &)>;
+    /// Those of the exact motion beside `point`; empty when a few steps of Newton's method do not lead to a
+    /// motion that the point describes, or when the flow would take longer than allowed.
     /// sequence: contact_events() of the point; within: see period_step(). What lay between the last point
     /// and its motion is the first guess for the next one; contact sets that come back are known by their
     /// modes.
-    Matrix monodromy(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
-                     const EventSequence &sequence, const Matrix &within);
+    vector<std::complex<double>> multipliers(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
+                                             const EventSequence &sequence, const Matrix &within,
+                                             const OfMonodromy &of);
 
     /// Forgets the points before, but for what lay between the last one and its motion: that is returned.
     const vector<double> &settle();
     void take(vector<double> correction) { correction_ = std::move(correction); }
 
   private:
-    Matrix by_events(const ExactFlow &flow, const FlowState &start, EventSequence sequence,
-                     const Matrix &within);
-    Matrix newton(ExactFlow &flow, const FlowState &start, FlowState now, const Matrix &within);
+    vector<std::complex<double>> by_events(const ExactFlow &flow, const FlowState &start,
+                                           EventSequence sequence, const Matrix &within,
+                                           const OfMonodromy &of);
+    vector<std::complex<double>> newton(ExactFlow &flow, const FlowState &start, FlowState now,
+                                        const Matrix &within, const OfMonodromy &of);
     void keep_correction(const FlowModel &model, const FlowState &start, const FlowState &found);
 
     std::int64_t periods_;

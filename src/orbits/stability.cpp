@@ -1,5 +1,6 @@
 #include "orbits/stability.hpp"
 #include "linalg/lapack.hpp"
+#include "linalg/scale.hpp"
 #include "motions/effort_budget.hpp"
 #include "motions/free_motion.hpp"
 #include "orbits/exact_motion.hpp"
@@ -60,15 +61,18 @@ vector<std::complex<double>> Stability::multipliers(const BranchPoint &point) {
     const auto flow = flow_ ? flow_ : std::make_shared<FlowModel>(reduced_, point.omega);
     if (hill_) return hill_multipliers(*flow, *reduced_, point, period_multiple_);
     const EventSequence sequence = contact_events(*reduced_, point, period_multiple_);
-    const Matrix free = free_motion(*reduced_, sequence.acting()),
-                 transition = beside_.monodromy(flow, point, sequence, states_beside(free, *flow, false));
-    if (transition.rows() == 0) return {};
-    if (free.cols() == 0) return plm::multipliers(transition);
+    const Matrix free = free_motion(*reduced_, sequence.acting());
     // A displacement along a free motion stays: multiplier 1. Beside that of its velocity, 1 without damping,
     // it would be a defective pair, which rounding throws off the unit circle.
     const Matrix but_positions = states_beside(free, *flow, true);
     vector<std::complex<double>> found =
-        plm::multipliers(product('T', 'N', but_positions, product('N', 'N', transition, but_positions)));
+        beside_.multipliers(flow, point, sequence, states_beside(free, *flow, false), [&](const Matrix &all) {
+            if (!all_finite(all.data(), all.rows() * all.cols())) return vector<std::complex<double>>();
+            return plm::multipliers(
+                free.cols() == 0 ? all
+                                 : product('T', 'N', but_positions, product('N', 'N', all, but_positions)));
+        });
+    if (found.empty() || free.cols() == 0) return found;
     const auto inside = std::find_if(found.begin(), found.end(), [](auto m) { return std::abs(m) < 1; });
     found.insert(inside, but_positions.rows() - but_positions.cols(), 1.0);
     return found;

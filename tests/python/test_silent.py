@@ -89,6 +89,33 @@ class Silent(unittest.TestCase):
         self.assertGreater(largest, 1.02 * r.amplitude)
         self.assertLess(abs(told / largest - 1), 5e-2)  # it may not repeat: the largest of some periods
 
+    def test_a_free_body_has_a_stability(self):
+        """Rigid-body motion is neutral, four multipliers of 1 that rounding cannot tell from the unit circle: what is beside it is
+        stable or not all the same. A free beam carries a mass on a spring beside a stop."""
+        elements, length = 17, 1 / 17
+        n, l = 2 * elements + 3, length
+        M, K = np.zeros((n, n)), np.zeros((n, n))
+        bend = 200 / l**3 * np.array([[12, 6 * l, -12, 6 * l], [6 * l, 4 * l * l, -6 * l, 2 * l * l],
+                                      [-12, -6 * l, 12, -6 * l], [6 * l, 2 * l * l, -6 * l, 4 * l * l]])
+        mass = l / 420 * np.array([[156, 22 * l, 54, -13 * l], [22 * l, 4 * l * l, 13 * l, -3 * l * l],
+                                   [54, 13 * l, 156, -22 * l], [-13 * l, -3 * l * l, -22 * l, 4 * l * l]])
+        for e in range(elements):
+            at = slice(2 * e, 2 * e + 4)
+            M[at, at] += mass
+            K[at, at] += bend
+        middle = 2 * (elements // 2)
+        spring, rows = np.zeros((1, n)), np.zeros((1, n))
+        spring[0, [middle, -1]] = rows[0, [middle, -1]] = 1, -1
+        M[-1, -1] = 0.3
+        K += 3000 * spring.T @ spring
+        values, vectors = scipy.linalg.eigh(K, M)
+        C = M @ vectors @ np.diag(2 * 0.01 * np.sqrt(np.where(np.arange(n) < 2, 0, np.abs(values)))) @ vectors.T @ M
+        force = np.zeros(n)
+        force[0] = 1
+        r, said = one_call(M, K, C, rows, 3e4, 0.0, force, 0)
+        self.assertNotIn("not known", said)
+        self.assertIn(r.hbm.find_peak(r.curve, 0, measure="peak").branch.stable[0], (0, 1))
+
     @staticmethod
     def march(M, K, C, rows, stiffness, gap, force, hz, dof, periods=300, steps=1000):
         """From rest by central differences; the largest value over the last hundred periods."""
