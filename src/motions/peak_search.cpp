@@ -25,17 +25,17 @@ bool PeakSearch::run(const Branch &branch, const std::array<std::int64_t, 3> &ar
         three_.begin(), three_.end(), [](const auto &a, const auto &b) { return a.amplitude < b.amplitude; });
     constexpr double same_height = 1e-9; // rounding decides between them
     Sample best;
-    above_ = settled ? 0 : rise();
+    const double rises = settled ? 0 : rise();
     if (!corrected(vertex(), best) || best.amplitude < top.amplitude * (1 - same_height)) best = top;
-    above_ = std::max(0.0, above_ - (best.amplitude / top.amplitude - 1));
-    if (!settled) climb(best);
+    const double above = std::max(0.0, rises - (best.amplitude / top.amplitude - 1));
+    above_ = settled ? above : climb(best, above);
     highest = std::move(best.point);
     return true;
 }
 
 // Where contact begins the curve may turn at a corner, and no chord leads there: on in frequency, away from
 // the nearest lower point of the curve, in steps that are halved where the motion is lost or gains less.
-void PeakSearch::climb(Sample &best) {
+double PeakSearch::climb(Sample &best, double above) {
     const double enough = ErrorBudget(options_.accuracy).corner();
     constexpr double as_before = 0.7; // less is gained beyond the corner
     constexpr int most_solved = 40;
@@ -45,7 +45,7 @@ void PeakSearch::climb(Sample &best) {
     };
     Sample before = *std::min_element(of_curve_.begin(), of_curve_.end(),
                                       [&](const auto &a, const auto &b) { return far(a) < far(b); });
-    if (std::isinf(far(before))) return;
+    if (std::isinf(far(before))) return above;
     chord_ = {vector<double>(best.at.x.size(), 0.0), 1.0};
     scale_by(1 / metric_.length(chord_), chord_);
     double step = 1, rise = INFINITY; // step: of that from before to best
@@ -61,7 +61,7 @@ void PeakSearch::climb(Sample &best) {
         }
         rise = step * (1 - before.amplitude / best.amplitude);
     }
-    above_ = rise;
+    return rise;
 }
 
 bool PeakSearch::is_exact() const {

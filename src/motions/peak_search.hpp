@@ -43,7 +43,7 @@ class PeakSearch {
     double vertex() const;
     bool corrected(double s, Sample &out);
     bool solved(Sample &out);
-    void climb(Sample &best);
+    double climb(Sample &best, double above);
 
     PeriodicEquations &equations_;
     const MotionOptions &options_;

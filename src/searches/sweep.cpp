@@ -103,7 +103,6 @@ bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> 
                                                      2 * M_PI * task.options.frequency_max_hz, task.watch);
     if (task.look) return compression->begin_with(*task.look);
     SweepTask look = task;
-    look.only_looks = true;
     look.watch = task.watch.quiet();
     const auto first = sweep_with_few_harmonics(look);
     if (first->end_reason == reason::cancelled) require_unstopped(*first);
@@ -220,6 +219,7 @@ std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     constexpr std::int64_t few_points = 250;
     SweepTask look = task;
     look.exact = false;
+    look.only_looks = true;  // at the peak, if it is the answer, it is measured
     look.recorder = nullptr; // made again in seconds
     look.level_before = nullptr;
     look.options.motion = MotionKind::harmonics;
