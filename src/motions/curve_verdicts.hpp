@@ -31,7 +31,7 @@ std::int64_t highest_stable(const Branch &curve, const Output &of);
 vector<std::int64_t> left_for_others(const Branch &curve);
 
 /// A peak whose motion is not stable is not what the structure does, unless stable motions end at a fold
-/// beside it, as high within the accuracy (that beside a fold, for one).
+/// beside it, as high within the accuracy.
 void check_stability(const Branch &curve, const Output &of, double accuracy, Watch watch, Branch &peak);
 
 /// Where a host's own reduction (a superelement) takes more than its share (error_budget.hpp), no basis can

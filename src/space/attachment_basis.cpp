@@ -196,6 +196,9 @@ Field AttachmentBasis::add_responses(Field forces, double least) {
     const std::int64_t n = y.cols(),
                        left = std::upper_bound(e.values.begin(), e.values.end(), least) - e.values.begin();
     y = plm::combine(y, e.vectors.columns(left, n - left));
+    vector<double> scale;
+    for (std::int64_t j = left; j < n; ++j) scale.push_back(1 / std::sqrt(std::max(1.0, e.values[j])));
+    y.scale(scale); // dampers that hold like a support
     if (y.cols() > 0) {
         append_with_coupling(y);
         rayleigh_ritz();
