@@ -45,23 +45,29 @@ double PeakSearch::climb(Sample &best, double above) {
     };
     Sample before = *std::min_element(of_curve_.begin(), of_curve_.end(),
                                       [&](const auto &a, const auto &b) { return far(a) < far(b); });
-    if (std::isinf(far(before))) return above;
+    if (std::isinf(far(before)) || before.at.parameter == best.at.parameter) return above;
     chord_ = {vector<double>(best.at.x.size(), 0.0), 1.0};
     scale_by(1 / metric_.length(chord_), chord_);
-    double step = 1, rise = INFINITY; // step: of that from before to best
-    for (int k = 0; k < most_solved && rise > enough; ++k) {
+    double step = 1, beyond = INFINITY; // step: of that from before to best; beyond: where less was gained
+    const auto rises = [&] {            // where nothing was solved beyond: as much again as by the last step
+        const double gained = 1 - before.amplitude / best.amplitude,
+                     last = std::abs(best.at.parameter - before.at.parameter);
+        return std::isinf(beyond) ? gained : gained * std::abs(beyond - best.at.parameter) / last;
+    };
+    for (int k = 0; k < most_solved && step * rises() > enough; ++k) {
         Sample next = best;
         add(step, difference(best.at, before.at), next.at);
         const double expected = step * (best.amplitude - before.amplitude);
-        if (solved(next) && next.amplitude - best.amplitude > as_before * expected) {
+        const bool found = solved(next);
+        if (found && next.amplitude - best.amplitude > as_before * expected) {
             before = std::exchange(best, std::move(next));
             step = 1;
         } else {
+            if (found) beyond = next.at.parameter;
             step *= 0.5;
         }
-        rise = step * (1 - before.amplitude / best.amplitude);
     }
-    return rise;
+    return std::max(above, rises());
 }
 
 bool PeakSearch::is_exact() const {
