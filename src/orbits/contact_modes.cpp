@@ -38,7 +38,10 @@ Matrix ContactModes::system_matrix(const FlowModel &model, const Matrix &k) {
     const std::int64_t n = moving_, size = moving_ + massive_;
     const bool diagonal = model.has_diagonal_damping();
     root_.resize(n);
-    for (std::int64_t j = 0; j < n; ++j) root_[j] = k(j, j) > 0 ? std::sqrt(k(j, j)) : 1.0;
+    double largest = 0;
+    for (std::int64_t j = 0; j < n; ++j) largest = std::max(largest, k(j, j));
+    for (std::int64_t j = 0; j < n; ++j) // what rounding leaves of a free motion's stiffness is no scale
+        root_[j] = k(j, j) > no_rate * no_rate * largest ? std::sqrt(k(j, j)) : 1.0;
     Matrix a(size, size);
     for (std::int64_t j = 0; j < massive_; ++j) {
         a(j, n + j) = root_[j];

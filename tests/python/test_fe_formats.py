@@ -10,6 +10,7 @@ import unittest
 import numpy
 import scipy.linalg
 from plm.fe import FileError, Matrices, read_matrices
+from plm.fe.formats import dof_list, substructure
 
 FORMATS = pathlib.Path(__file__).parent / "formats"
 
@@ -181,6 +182,15 @@ class Samples(unittest.TestCase):
                 self.assertEqual(error.line, line)
                 self.assertEqual(pathlib.Path(error.file).name, *(other or [name]))
                 self.assertTrue(str(error).startswith(f"{error.file}:{line}: " if line else f"{error.file}: "))
+
+    def test_two_signs_are_no_number(self):
+        self.assertIsNone(substructure.labels_of("1, --1"))
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "list.dof"
+            path.write_text("1 3\n+-1 3\n")
+            with self.assertRaises(FileError) as caught:
+                dof_list.as_dofs(path)
+            self.assertEqual(caught.exception.line, 2)
 
     def test_every_broken_file_is_tried(self):
         companions = {name.rpartition(".")[0] for name in BROKEN if name.endswith((".sti", ".matrix"))}

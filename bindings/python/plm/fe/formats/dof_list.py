@@ -1,5 +1,6 @@
 """Lists of DOFs, in the order of the rows: node.direction (CalculiX), node and direction, node and components, Ansys mapping."""
 import os
+import re
 
 import numpy
 
@@ -44,7 +45,7 @@ def read_dof_list(path):
 def one_line(path, number, words, equations, notes):
     """The DOFs of a line."""
     def whole(word, low, high):
-        if not word.lstrip("+-").isdecimal() or not low <= int(word) <= high:
+        if not re.fullmatch("[+-]?[0-9]{1,18}", word) or not low <= int(word) <= high:
             raise FileError(path, number, f"{word[:40]!r} where a whole number of {low} .. {high} is expected")
         return int(word)
     if len(words) == 1 and words[0].count(".") == 1:  # 102.3

@@ -74,7 +74,7 @@ def read_one(path, found):
 def labels_of(text):
     """The labels of nodes in a line; below one are modal coordinates. None where it is a comment of another kind."""
     words = text.replace(",", " ").split()
-    return [int(word) for word in words] if all(word.lstrip("-").isdecimal() and len(word) < 16 for word in words) else None
+    return [int(word) for word in words] if all(re.fullmatch("-?[0-9]{1,15}", word) for word in words) else None
 
 
 def user_element_dofs(path, line, nodes, changes):
