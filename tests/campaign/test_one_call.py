@@ -9,7 +9,7 @@ import scipy.linalg
 import campaign
 import exact
 import families
-from families_brought import modal_matrix
+from families_brought import hanging_parts, modal_matrix
 
 
 def two_bases_that_agree_tell_what_no_estimate_does():
@@ -136,6 +136,18 @@ def a_single_motion_by_harmonics_has_its_multipliers_on_any_model():
         assert abs(np.abs(branch.multipliers(0)).max() - truth) < 1e-3, (branch.multipliers(0)[:2], truth)  # a solution of 1e-3
 
 
+def bodies_that_contact_alone_holds_have_their_multipliers():
+    """Two bodies pressed on a third: while one of them is held and the other is not, rounding gave the free one a stiffness of 1e-34,
+    by whose root its motion was scaled, and a multiplier of 1e10."""
+    m = hanging_parts(np.random.default_rng(1500141))
+    model = campaign.build(m)
+    response = model.compute_response(m["out"], measure="peak")
+    peak = response.hbm.find_peak(response.curve, m["out"], measure="peak")
+    s = exact.Structure(m["M"], m["C"], m["K"], m["B"], m["kn"], m["g"], m["P"], campaign.force_of(m), m["out"])
+    truth = np.abs(np.linalg.eigvals(s.periodic(*campaign.state_of(peak))[1])).max()
+    assert truth < 1 and abs(np.abs(peak.branch.multipliers(0)).max() - truth) < 3e-3, (peak.branch.multipliers(0)[:2], truth)
+
+
 def a_peak_without_effort_says_by_how_much_it_may_be_higher():
     m, model, hbm, curve = beam_against_a_stop(n_harmonics=9, max_step=1)
     peak = hbm.find_peak(curve, m["out"], measure="peak").amplitude
@@ -170,7 +182,7 @@ for test in (two_bases_that_agree_tell_what_no_estimate_does, a_step_that_crosse
              a_sweep_begins_where_an_exact_motion_is_found, a_refinement_under_stiff_contact_meets_its_tolerance,
              a_tangle_of_bounces_is_not_answered_by_few_harmonics, a_whole_curve_by_harmonics_is_not_given_up_for_a_part,
              a_motion_far_below_its_pre_load_has_its_own_peak,
-             a_single_motion_by_harmonics_has_its_multipliers_on_any_model,
+             a_single_motion_by_harmonics_has_its_multipliers_on_any_model, bodies_that_contact_alone_holds_have_their_multipliers,
              a_peak_without_effort_says_by_how_much_it_may_be_higher, a_peak_whose_search_is_cut_anywhere_says_by_how_much_it_may_be_higher):
     test()
     print(test.__name__, "ok")
