@@ -155,6 +155,7 @@ def a_peak_without_effort_says_by_how_much_it_may_be_higher():
     with warnings.catch_warnings(record=True) as said:
         warnings.simplefilter("always", plm.PlmWarning)
         highest = hbm.find_peak(curve, m["out"], measure="peak").amplitude
+    model.context.set_effort(10)  # the default: the context is that of the other tests, too
     above = [float(t) for w in said for t in re.findall(r"higher by about (\S+) of itself", str(w.message))]
     assert highest == curve.amplitude(m["out"], "peak").max() < peak, (highest, peak)
     assert len(above) == 1 and peak / highest - 1 < above[0] < 0.02, (above, peak / highest - 1)
@@ -174,6 +175,7 @@ def a_peak_whose_search_is_cut_anywhere_says_by_how_much_it_may_be_higher():
         missing = peak / found - 1
         assert missing < 1e-5 or (above and missing < 3 * above[0]), (effort, missing, above)
         cut += missing > 1e-5
+    model.context.set_effort(10)
     assert 0 < cut < 120, cut
 
 
