@@ -17,8 +17,8 @@ struct MotionOptions {
     double force_scale = 1;                            // scales the excitation, not the pre-load
     double tolerance = 1e-9;                           // of the Newton correction, relative to the solution
     std::int64_t max_iterations = 30;                  // Newton iterations per point
-    std::int64_t max_points = 10000; // a guard of memory: what bounds a sweep is the effort
-    double initial_step = 0;        // arc length relative to the curve's scale; 0: automatic
+    std::int64_t max_points = 10000;                   // a guard of memory: what bounds a sweep is the effort
+    double initial_step = 0; // arc length relative to the curve's scale; 0: automatic
     double min_step = 1e-7,
            max_step = 0.15; // arc length, where 1 = the window's width or the response's scale
     StabilityKind stability = StabilityKind::automatic; // Floquet multipliers of each point

@@ -100,8 +100,8 @@ void hard_stops_are_no_exception(void **) {
 }
 
 // Contact so stiff that it is an impact: where the motion begins to touch the stop, the curve turns a corner
-// that no step resolves. Up to 4e11 times the stiffness of the structure; at ten times that, rounding decides whether the
-// corner is passed.
+// that no step resolves. Up to 4e11 times the stiffness of the structure; at ten times that, rounding decides
+// whether the corner is passed.
 void curves_turn_where_impacts_begin(void **) {
     for (double stiffness : {2.5e6, 2.5e7, 2.5e8, 2.5e9, 1e11})
         for (const auto &[gap, preload] : {std::pair(1.0, 0.0), std::pair(0.0, 0.1), std::pair(0.0, 0.0)}) {
