@@ -149,12 +149,12 @@ vector<double> Branch::coefficients(std::int64_t point, const DofInBasis &dof) c
     return c;
 }
 
-namespace {
-
 double amplitude_of(const ValueRange &range, Measure measure) {
     if (measure == Measure::half_peak_to_peak) return 0.5 * (range.maximum - range.minimum);
     return std::max(std::abs(range.maximum), std::abs(range.minimum));
 }
+
+namespace {
 
 // Beyond what its harmonics say.
 bool has_own_extrema(const BranchPoint &p, Measure measure) {

@@ -25,6 +25,8 @@ std::string end_text(std::int32_t reason, bool sampled = false);
 /// Amplitude of the motion a0, a1, b1, ..., aH, bH; harmonic is used by Measure::harmonic only, those beyond
 /// H are zero.
 double amplitude_of(const vector<double> &coefficient, Measure measure, std::int64_t harmonic);
+/// From its extrema: the peak or half peak to peak.
+double amplitude_of(const ValueRange &range, Measure measure);
 
 /// A number that is linear in the motion, such as a DOF: what each column of P and of P_0 makes of it.
 struct DofInBasis {

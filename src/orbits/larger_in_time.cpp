@@ -32,10 +32,7 @@ double amplitude_after(const Branch &curve, const BranchPoint &begin, const Outp
     for (int k = 1; k <= watched; ++k) {
         RecordedMotion record;
         flow.advance(state, (leaving + k) * period, &record);
-        const ValueRange range = record.ranges(row, known, begin.omega)[0];
-        most = std::max(most, of.measure == Measure::peak
-                                  ? std::max(std::abs(range.minimum), std::abs(range.maximum))
-                                  : 0.5 * (range.maximum - range.minimum));
+        most = std::max(most, amplitude_of(record.ranges(row, known, begin.omega)[0], of.measure));
     }
     return most;
 }
