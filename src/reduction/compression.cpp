@@ -144,7 +144,8 @@ Compressed compress(const Responses &responses, double tolerance, std::int64_t s
     const double largest = dynamic.svd.values[0], left_out = tolerance * tolerance;
     const std::int64_t kept = size > 0 ? std::min(size, dynamic.needed(0, rounding * largest))
                                        : dynamic.needed(left_out * dynamic.energy, rounding * largest);
-    const Coordinates coordinates = diagonalise(space, dynamic.directions(std::max<std::int64_t>(kept, 1)));
+    const Matrix directions = dynamic.directions(std::max<std::int64_t>(kept, 1)); // orthonormal
+    const Coordinates coordinates = diagonalise(space, rigid_apart(space, directions, rounding));
     const auto reduced = std::make_shared<ReducedModel>(*project(space, coordinates, StaticBasis()));
 
     // mean parts: to the same tolerance, of themselves and of the motions about them

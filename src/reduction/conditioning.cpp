@@ -106,6 +106,13 @@ Matrix coordinates_among(const Space &space, const Matrix &y, const Coordinates 
     return c;
 }
 
+Matrix rigid_apart(const Space &space, const Matrix &columns, double least) {
+    const auto is_rigid = [&](std::int64_t i) { return space.lambda[i] == 0; };
+    Matrix kept = above(thin_svd(rows_where(columns, is_rigid)), least);
+    kept.append(above(thin_svd(rows_where(columns, [&](std::int64_t i) { return !is_rigid(i); })), least));
+    return kept;
+}
+
 Conditioned condition_columns(const Space &space, const Matrix &columns, double tolerance) {
     Conditioned result; // in the M-inner product, since coordinates with mass are M-orthonormal
     const Svd all = thin_svd(columns);
@@ -114,15 +121,7 @@ Conditioned condition_columns(const Space &space, const Matrix &columns, double 
         throw Error(status::internal, "the collected modes have no direction")
             .reason(reason::basis_too_small);
     for (double s : all.values) result.singular_values.push_back(s / largest);
-    if (space.lambda.front() > 0) {
-        result.coordinates = diagonalise(space, above(all, tolerance * largest));
-        return result;
-    }
-    const Matrix rigid = rows_where(columns, [&](std::int64_t i) { return space.lambda[i] == 0; }),
-                 elastic = rows_where(columns, [&](std::int64_t i) { return space.lambda[i] > 0; });
-    Matrix kept = above(thin_svd(rigid), tolerance * largest);
-    kept.append(above(thin_svd(elastic), tolerance * largest));
-    result.coordinates = diagonalise(space, kept);
+    result.coordinates = diagonalise(space, rigid_apart(space, columns, tolerance * largest));
     return result;
 }
 
