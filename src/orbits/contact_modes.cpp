@@ -11,7 +11,7 @@ constexpr double no_rate = 1e-10;        // of the fastest: by which nothing can
 // Of the fastest: free motions. Rounding makes so much of rates 0 whose eigenvectors coincide.
 constexpr double free_rate = 1e-6;
 // Pieces that are as much work as the eigenvectors, n^3 against n^2: some at least, and by the coordinate.
-constexpr std::int64_t worth_it = 40, worth_a_coordinate = 2;
+constexpr std::int64_t worth_it = 120, worth_a_coordinate = 2;
 constexpr double most_bytes = 1.5e8, most_transition_bytes = 1e8, most_entries = 4096;
 
 } // namespace

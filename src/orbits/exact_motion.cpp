@@ -15,7 +15,9 @@ constexpr double contraction = 0.7;
 constexpr double same_motion = 0.3; // of the motion's size: farther away it is another one
 // How exact a motion has to be for its multipliers. What they still change by, as a share of their distance
 // from the unit circle; a motion, as a share of its size, that is exact enough wherever they are.
-constexpr double settled = 1e-3, exact_state = 1e-9;
+constexpr double settled = 1e-2, exact_state = 1e-9;
+// Of the series of the flow and of its monodromy: they are to leave an exact state exact.
+constexpr double enough_digits = 1e-11;
 // A step, as a share of that distance, after which they are told where no better motion is found: beside a
 // fold the exact curve has turned already.
 constexpr double safe_state = 2e-5;
@@ -42,21 +44,18 @@ struct Verdict {
             n_outside += std::abs(m) > 1;
         }
     }
+    /// INFINITY: another number of them is outside.
+    double change_from(const Verdict &before) const {
+        if (before.n_outside != n_outside || before.multipliers.size() != multipliers.size()) return INFINITY;
+        double change = 0;
+        for (std::size_t i = 0; i < multipliers.size(); ++i)
+            change = std::max(change, std::abs(std::abs(multipliers[i]) - std::abs(before.multipliers[i])));
+        return change;
+    }
     vector<std::complex<double>> multipliers; // the largest first
     double margin = 1;
     std::int64_t n_outside = 0;
 };
-
-// Whether a step that is `shorter` times the last one changes nothing any more. Near grazing multipliers
-// change with the root of the penetration, elsewhere less.
-bool is_settled(const Verdict &before, const Verdict &now, double shorter) {
-    if (before.n_outside != now.n_outside || before.multipliers.size() != now.multipliers.size())
-        return false;
-    double change = 0;
-    for (std::size_t i = 0; i < now.multipliers.size(); ++i)
-        change = std::max(change, std::abs(std::abs(now.multipliers[i]) - std::abs(before.multipliers[i])));
-    return change * std::sqrt(shorter) <= settled * now.margin;
-}
 
 // Chatter, overflow, a mode too fast for the exponential, a singular system: no answer.
 template <class Search> vector<std::complex<double>> found_by(const Search &search) {
@@ -86,6 +85,7 @@ vector<std::complex<double>> MotionBeside::multipliers(std::shared_ptr<const Flo
         modes_ = std::make_shared<ContactModesKept>(model);
     }
     ExactFlow flow(model, point.omega, point.force_scale, Watch(), modes_);
+    flow.truncate(enough_digits);
     if (sequence.events.empty())
         return found_by([&] {
             const double duration = flow.period() * static_cast<double>(periods_);
@@ -128,24 +128,29 @@ vector<std::complex<double>> MotionBeside::newton(ExactFlow &flow, const FlowSta
     const FlowModel &model = flow.model();
     const EnergyNorm norm(flow);
     double before = INFINITY;
-    Verdict verdict;
+    Verdict verdict(found_multipliers_);
     vector<std::complex<double>> safe; // of the last run that was that near to a motion
     for (int k = 0; k < max_steps; ++k) {
         const PeriodRun run = run_periods(flow, now, periods_);
-        const Matrix matrix = plm::monodromy(model, run.intervals, 1e-15, Watch(), modes_.get());
+        const Matrix matrix = plm::monodromy(model, run.intervals, enough_digits, Watch(), modes_.get());
         FlowState next = moved(model, now, period_step(model, now, run, matrix, within), 1);
         const double step = run.size > 0 ? norm.distance(next, now) / run.size : 0;
         if (!std::isfinite(step) || norm.distance(next, start) > same_motion * run.size) return {};
         if (k >= may_wander && step > contraction * before) return safe;
         now = std::move(next);
         const Verdict last = std::exchange(verdict, Verdict(of(matrix)));
-        const double shorter = step / std::exchange(before, step);
-        if (step > exact_state && !is_settled(last, verdict, shorter)) {
+        if (k == 0 && !last.multipliers.empty()) before = norm.distance(now, found_) / run.size;
+        // near grazing multipliers change with the root of the penetration, from point to point more evenly
+        const double shorter = step / before,
+                     left = verdict.change_from(last) * (k > 0 ? std::sqrt(shorter) : shorter);
+        before = step;
+        if (step > exact_state && !(left <= settled * verdict.margin)) {
             if (step <= safe_state * verdict.margin) safe = verdict.multipliers;
             continue;
         }
         keep_correction(model, start, now);
-        return verdict.multipliers;
+        found_ = std::move(now);
+        return found_multipliers_ = verdict.multipliers;
     }
     return safe;
 }
@@ -153,6 +158,7 @@ vector<std::complex<double>> MotionBeside::newton(ExactFlow &flow, const FlowSta
 const vector<double> &MotionBeside::settle() {
     model_ = nullptr;
     modes_ = nullptr;
+    found_multipliers_.clear();
     return correction_;
 }
 

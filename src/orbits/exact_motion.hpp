@@ -4,6 +4,7 @@
 #include "motions/branch.hpp"
 #include "orbits/event_motion.hpp"
 #include "orbits/exact_flow.hpp"
+#include <cmath>
 #include <functional>
 
 namespace plm {
@@ -24,8 +25,8 @@ class MotionBeside {
     /// Those of the exact motion beside `point`; empty when a few steps of Newton's method do not lead to a
     /// motion that the point describes, or when the flow would take longer than allowed.
     /// sequence: contact_events() of the point; within: see period_step(). What lay between the last point
-    /// and its motion is the first guess for the next one; contact sets that come back are known by their
-    /// modes.
+    /// and its motion is the first guess for the next one, and how its multipliers differ tells whether that
+    /// guess is good enough for those of the next one; contact sets that come back are known by their modes.
     vector<std::complex<double>> multipliers(std::shared_ptr<const FlowModel> model, const BranchPoint &point,
                                              const EventSequence &sequence, const Matrix &within,
                                              const OfMonodromy &of);
@@ -47,6 +48,8 @@ class MotionBeside {
     std::shared_ptr<const FlowModel> model_;  // of the last point
     std::shared_ptr<ContactModesKept> modes_; // of that model
     vector<double> correction_;               // FlowModel::state_size(); empty: none is known
+    FlowState found_;                         // the last motion, and its multipliers (empty: there is none)
+    vector<std::complex<double>> found_multipliers_;
 };
 
 } // namespace plm

@@ -133,9 +133,16 @@ vector<double> PathWalker::tests() {
     if (!options_.locate) return {};
     vector<double> owners;
     owner_.test(now_.x, now_.parameter, owners);
-    vector<double> all = {tangent_.parameter * metric_.width, branch_test()};
+    vector<double> all = {fold_test(), branch_test()};
     all.insert(all.end(), owners.begin(), owners.end());
     return all;
+}
+
+double PathWalker::test(std::size_t k) {
+    if (k < own_tests) return k == 0 ? fold_test() : branch_test();
+    vector<double> owners;
+    owner_.test(now_.x, now_.parameter, owners);
+    return owners[k - own_tests];
 }
 
 // sign(det) of the tangent bordered by the path's direction, over the size of its solution for a fixed

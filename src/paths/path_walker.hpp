@@ -70,8 +70,11 @@ class PathWalker {
     /// Test functions at the present point: the tangent's share of p (fold), the smallest stretch of the
     /// bordered tangent (branch point), the owner's. None where nothing is located.
     vector<double> tests();
+    /// One of them.
+    double test(std::size_t k);
 
   private:
+    double fold_test() const { return tangent_.parameter * metric_.width; }
     double branch_test();
 
     Residual &system_;

@@ -117,7 +117,7 @@ class Finder {
                                                       : std::clamp(part, off_the_ends, 1 - off_the_ends));
             double residual = 0;
             if (!move_to(t, residual)) break;
-            const double value = value_of(walker_.tests(), k);
+            const double value = walker_.test(k);
             if (std::isnan(value) && ++unknown > elsewhere.size()) break;
             if (std::isnan(value)) continue;
             unknown = 0;
