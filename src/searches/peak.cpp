@@ -186,9 +186,11 @@ Peak Hbm::find_peak(const Branch &branch, std::int64_t dof, Measure measure, std
     double error = point.motion ? 0 : point.harmonic_error; // an exact motion lacks no harmonics
     if (is_peak) {
         // of the effort that is left: for the peak itself, then for each of what is said of it, of which the
-        // estimate of the error by the basis is the last
+        // estimate of the error by the basis is the last; an exact motion has its multipliers with it, and
+        // nothing to look for in time
         CloserLook look(reduced, options_, branch, around, of, watch_);
-        within(EffortBudget::half * effort_left(), [&] { look.close_in(); });
+        within((point.motion ? EffortBudget::most : EffortBudget::half) * effort_left(),
+               [&] { look.close_in(); });
         within(EffortBudget::half * effort_left(), [&] { look.look_in_time(); });
         const bool in_time = within(EffortBudget::half * effort_left(), [&] { look.find_multipliers(); });
         const double multiplier_error = point.multiplier_error;
