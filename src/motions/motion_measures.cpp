@@ -116,4 +116,26 @@ double phase_of(const ReducedModel &m, const BranchPoint &point, std::int64_t pe
            dot(m.size(), load.imag.data(), point.eta.col(2 * h - 1));
 }
 
+Output most_moving(const Branch &branch, std::int64_t point) {
+    const Model &model = *branch.reduced().model;
+    Output most;
+    double largest = -1;
+    for (double fraction : {0.0, 0.25}) { // half a period apart, twice
+        const vector<double> one = model.expanded(branch.field(point, fraction)),
+                             other = model.expanded(branch.field(point, fraction + 0.5));
+        for (std::size_t i = 0; i < one.size(); ++i)
+            if (std::abs(one[i] - other[i]) > largest)
+                largest = std::abs(one[i] - other[i]), most.dof = static_cast<std::int64_t>(i);
+    }
+    return most;
+}
+
+vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted) {
+    const std::int64_t points = static_cast<std::int64_t>(branch.points().size()),
+                       n = std::min(points, wanted);
+    vector<std::int64_t> at;
+    for (std::int64_t k = 0; k < n; ++k) at.push_back(n > 1 ? k * (points - 1) / (n - 1) : 0);
+    return at;
+}
+
 } // namespace plm

@@ -17,6 +17,12 @@ MotionMeasures measure_motion(const ReducedModel &reduced, const BranchPoint &po
 double response_size(const Branch &branch, std::int64_t point);
 std::int64_t largest_response(const Branch &branch);
 
+/// The DOF that moves most at a point: what a curve is judged by where none is named.
+Output most_moving(const Branch &branch, std::int64_t point);
+
+/// Up to `wanted` points spread over a curve by their number, which its curvature sets.
+vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted);
+
 /// Re(F^H q) in the excitation's lowest dynamic harmonic; zero at phase resonance, positive below and
 /// negative above a resonance. Does not depend on the force scale.
 double phase_of(const ReducedModel &reduced, const BranchPoint &point, std::int64_t period_multiple);

@@ -1,8 +1,11 @@
 #include "orbits/mean_motion.hpp"
+#include "linalg/work.hpp"
+#include "motions/motion_measures.hpp"
 #include "orbits/exact_flow.hpp"
 #include "orbits/orbit_point.hpp"
 #include "orbits/recorded_motion.hpp"
 #include <algorithm>
+#include <cmath>
 
 namespace plm {
 namespace {
@@ -26,6 +29,29 @@ Matrix in_static_coordinates(const FlowModel &model, const Matrix &motion) {
     return out;
 }
 
+// Mean square of what the coordinates do beside their mean.
+double square_of(const BranchPoint &p) {
+    return 0.5 * dot(p.eta.rows() * p.eta.cols(), p.eta.data(), p.eta.data());
+}
+
+// The same after the periods that damping takes to forget where the motion began.
+double square_after(const Branch &curve, const BranchPoint &begin, Watch watch) {
+    constexpr int periods = 40, watched = 4, instants = 16, count = watched * instants;
+    const auto model = std::make_shared<FlowModel>(curve.reduced_model(), begin.omega);
+    ExactFlow flow(model, begin.omega, begin.force_scale, watch, std::make_shared<ContactModesKept>(model));
+    FlowState state = start_of(*model, begin, curve.period_multiple());
+    const std::int64_t n = model->size();
+    const double period = static_cast<double>(curve.period_multiple()) * flow.period();
+    vector<double> mean(static_cast<std::size_t>(n), 0.0);
+    double square = 0;
+    for (int k = 0; k < count; ++k) {
+        flow.advance(state, period * (periods + static_cast<double>(k) / instants));
+        square += dot(n, state.y.data(), state.y.data()) / count;
+        for (std::int64_t j = 0; j < n; ++j) mean[j] += state.y[j] / count;
+    }
+    return square - dot(n, mean.data(), mean.data());
+}
+
 } // namespace
 
 MeanMotion mean_motion(std::shared_ptr<const ReducedModel> reduced, const BranchPoint &point,
@@ -43,21 +69,15 @@ MeanMotion mean_motion(std::shared_ptr<const ReducedModel> reduced, const Branch
             mean_harmonics(record.contact_forces(flow), n_harmonics, periods.counted)};
 }
 
-double square_after(const Branch &curve, const BranchPoint &begin, Watch watch) {
-    constexpr int periods = 40, watched = 4, instants = 16, count = watched * instants;
-    const auto model = std::make_shared<FlowModel>(curve.reduced_model(), begin.omega);
-    ExactFlow flow(model, begin.omega, begin.force_scale, watch, std::make_shared<ContactModesKept>(model));
-    FlowState state = start_of(*model, begin, curve.period_multiple());
-    const std::int64_t n = model->size();
-    const double period = static_cast<double>(curve.period_multiple()) * flow.period();
-    vector<double> mean(static_cast<std::size_t>(n), 0.0);
-    double square = 0;
-    for (int k = 0; k < count; ++k) {
-        flow.advance(state, period * (periods + static_cast<double>(k) / instants));
-        square += dot(n, state.y.data(), state.y.data()) / count;
-        for (std::int64_t j = 0; j < n; ++j) mean[j] += state.y[j] / count;
-    }
-    return square - dot(n, mean.data(), mean.data());
+bool says_more(const Branch &curve, const Branch &part, Watch watch) {
+    constexpr double lasting = 0.25, larger = 1.2; // of squares: half the size, a tenth more
+    const BranchPoint &top = curve.points()[static_cast<std::size_t>(largest_response(curve))];
+    double known = 0;
+    for (const BranchPoint &p : part.points()) known = std::max(known, square_of(p));
+    if (square_of(top) < larger * known) return false;
+    double after = INFINITY; // a motion that there is no effort to look at is taken at its word
+    within(effort_left(), [&] { after = square_after(curve, top, watch); });
+    return after > lasting * square_of(top) && after > larger * known;
 }
 
 } // namespace plm

@@ -18,8 +18,9 @@ struct MeanOver {
 MeanMotion mean_motion(std::shared_ptr<const ReducedModel> reduced, const BranchPoint &point,
                        std::int64_t period_multiple, MeanOver periods, std::int64_t n_harmonics, Watch watch);
 
-/// Mean square of the coordinates beside their mean, after the periods that damping takes to forget where the
-/// motion began.
-double square_after(const Branch &curve, const BranchPoint &begin, Watch watch);
+/// Whether a whole curve by harmonics tells of a larger motion than a part of one by exact motions: its
+/// highest one is larger, and the structure goes on so in time, if not exactly. Where no motion is near, as
+/// in a tangle of bounces, it falls to what there is.
+bool says_more(const Branch &curve, const Branch &part, Watch watch);
 
 } // namespace plm

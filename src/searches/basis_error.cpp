@@ -41,30 +41,8 @@ bool can_be_judged(const Basis &basis, const Branch &branch, double flops) {
 
 } // namespace
 
-Output most_moving(const Branch &branch, std::int64_t point) {
-    const Model &model = *branch.reduced().model;
-    Output most;
-    double largest = -1;
-    for (double fraction : {0.0, 0.25}) { // half a period apart, twice
-        const vector<double> one = model.expanded(branch.field(point, fraction)),
-                             other = model.expanded(branch.field(point, fraction + 0.5));
-        for (std::size_t i = 0; i < one.size(); ++i)
-            if (std::abs(one[i] - other[i]) > largest)
-                largest = std::abs(one[i] - other[i]), most.dof = static_cast<std::int64_t>(i);
-    }
-    return most;
-}
-
 bool is_unreduced(const ReducedModel &reduced, const Basis &basis) {
     return reduced.size() >= basis.space()->size() && !reduced.all_pairs;
-}
-
-vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted) {
-    const std::int64_t points = static_cast<std::int64_t>(branch.points().size()),
-                       n = std::min(points, wanted);
-    vector<std::int64_t> at;
-    for (std::int64_t k = 0; k < n; ++k) at.push_back(n > 1 ? k * (points - 1) / (n - 1) : 0);
-    return at;
 }
 
 double basis_error(const ErrorEstimator &estimator, const Branch &branch, std::int64_t point,

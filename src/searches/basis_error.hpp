@@ -5,12 +5,6 @@
 
 namespace plm {
 
-/// The DOF that moves most at a point: what a curve is judged by where none is named.
-Output most_moving(const Branch &branch, std::int64_t point);
-
-/// Up to `wanted` points spread over a curve by their number, which its curvature sets.
-vector<std::int64_t> spread_over(const Branch &branch, std::int64_t wanted);
-
 /// Of one point: of the amplitude over `peak`, of the frequency over itself, the larger one; infinite where
 /// the steps to the better solution do not contract. `multipliers`, where asked for and known, becomes those
 /// of the whole structure's motion.

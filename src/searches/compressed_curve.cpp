@@ -260,12 +260,11 @@ bool CurveCompression::grow_to(double enough, const Branch &curve) {
     const double amplitude_there = amplitude(whole_, top_on_better_);
     double most = static_cast<double>(model_->size());
     std::int64_t size = 0;
-    for (std::int64_t round = 0; round < most_rounds; ++round) {
+    for (;;) {
         left_out_ *= ErrorBudget::next_try;
         most = std::ceil(grows_beside_whole * most);
         const auto larger = compressed_to(most);
-        if (!is_much_smaller(*larger, *whole_)) break;
-        if (larger->size() == size) continue;
+        if (!is_much_smaller(*larger, *whole_) || larger->size() == size) break;
         size = larger->size();
         BranchPoint point = top_on_better_;
         if (!make_exact_on(larger, point, ElseMarching::no)) continue;

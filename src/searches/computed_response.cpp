@@ -4,7 +4,10 @@
 #include "motions/curve_verdicts.hpp"
 #include "motions/effort_budget.hpp"
 #include "motions/error_budget.hpp"
+#include "motions/motion_measures.hpp"
 #include "orbits/larger_in_time.hpp"
+#include "orbits/mean_motion.hpp"
+#include "orbits/orbit_cost.hpp"
 #include "reduction/widened_model.hpp"
 #include "searches/basis_error.hpp"
 #include "searches/compressed_curve.hpp"
@@ -153,10 +156,20 @@ class Chain {
     // The curve is there before its peak is looked for.
     void follow(std::shared_ptr<const Basis> basis, ComputedResponse &r) {
         look_at(basis);
-        const auto curve = Hbm(basis, options_, watch_).sweep(&output_, nullptr, look_);
+        HbmOptions options = options_;
+        options.upward = look_ && begins_below(*look_);
+        const auto curve = Hbm(basis, options, watch_).sweep(&output_, nullptr, look_);
         if (curve->end_reason == reason::cancelled) require_unstopped(*curve);
         r = with_curve(std::move(basis), curve);
         find_peak(r);
+    }
+
+    // A curve that takes more than the effort allowed is begun at the end that is nearer to its peak.
+    bool begins_below(const Branch &look) const {
+        const double step = EffortBudget::step_on_compressed * exact_step_flops(look.reduced(), options_);
+        if (static_cast<double>(look.newton_work.iterations) * step < effort_left()) return false;
+        const std::int64_t top = largest_response(look), n = static_cast<std::int64_t>(look.points().size());
+        return (2 * top < n) == (look.points().front().omega < look.points().back().omega);
     }
 
     ComputedResponse with_curve(std::shared_ptr<const Basis> basis,
@@ -216,8 +229,9 @@ class Chain {
         tell(r);
         r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate);
         r.error = whole_error(r) + model_->space_options().reduction_error;
-        // what was not followed may be higher by any amount
-        const bool is_known = is_whole(*r.curve) || (spans(*r.curve) && r.peak.seen_in_time);
+        // what was not followed may be higher by any amount, unless the whole curve of the look is not
+        const bool is_known = is_whole(*r.curve) || (spans(*r.curve) && r.peak.seen_in_time) ||
+                              (look_ && is_whole(*look_) && !says_more(*look_, *r.curve, watch_));
         if (!std::isfinite(r.error) || !is_known || r.peak.branch->warnings.has(reason::no_peak))
             r.error = NAN;
         if (r.larger) watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.larger, known(r)));

@@ -2,6 +2,7 @@
 #include "linalg/work.hpp"
 #include "motions/curve_verdicts.hpp"
 #include "motions/error_budget.hpp"
+#include "motions/motion_measures.hpp"
 #include "motions/responses.hpp"
 #include "reduction/basis_kind.hpp"
 #include "searches/basis_error.hpp"

@@ -7,8 +7,8 @@
 #include "motions/error_budget.hpp"
 #include "motions/first_harmonics.hpp"
 #include "motions/free_motion.hpp"
-#include "motions/motion_measures.hpp"
 #include "orbits/mean_motion.hpp"
+#include "orbits/orbit_cost.hpp"
 #include "searches/compressed_curve.hpp"
 #include "searches/curve.hpp"
 #include "searches/wider_range.hpp"
@@ -91,9 +91,19 @@ std::shared_ptr<Branch> follow_curve(const SweepTask &task) {
     return branch;
 }
 
+// Where the first look had to go beyond the range for its peak, so has the curve, and better from its
+// beginning: what effort there is then goes to the peak first.
+void take_range(const Branch &look, HbmOptions &options) {
+    for (const BranchPoint &end : {look.points().front(), look.points().back()}) {
+        const double hz = end.omega / (2 * M_PI);
+        options.frequency_min_hz = std::min(options.frequency_min_hz, hz);
+        options.frequency_max_hz = std::max(options.frequency_max_hz, hz);
+    }
+}
+
 // The model that the curve of another level was followed on, or one by a first look at this one. False: the
 // latter would not be much smaller than the basis.
-bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> &compression) {
+bool begin_compression(SweepTask &task, std::shared_ptr<CurveCompression> &compression) {
     if (task.level_before && task.level_before->compression) {
         compression = std::move(task.level_before->compression);
         compression->go_on(task.options, *task.level_before->curve);
@@ -101,63 +111,90 @@ bool begin_compression(const SweepTask &task, std::shared_ptr<CurveCompression> 
     }
     compression = std::make_shared<CurveCompression>(task.reduced, task.options,
                                                      2 * M_PI * task.options.frequency_max_hz, task.watch);
-    if (task.look) return compression->begin_with(*task.look);
-    SweepTask look = task;
-    look.watch = task.watch.quiet();
-    const auto first = sweep_with_few_harmonics(look);
-    if (first->end_reason == reason::cancelled) require_unstopped(*first);
-    return compression->begin_with(*first);
+    if (!task.look) {
+        SweepTask look = task;
+        look.watch = task.watch.quiet();
+        const auto first = sweep_with_few_harmonics(look);
+        if (first->end_reason == reason::cancelled) require_unstopped(*first);
+        task.look = first;
+    }
+    take_range(*task.look, task.options);
+    return compression->begin_with(*task.look);
 }
 
-// The curve on a model that has what its motions need of the basis; null: such a model would not be much
-// smaller, or a curve on it is not what the whole basis says.
-std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
+struct CompressedCurve {
+    std::shared_ptr<Branch> curve; // null: none came to its end
+    bool holds = false;            // false: the whole basis says otherwise, or was not to be asked
+};
+
+// The curve on a model that has what its motions need of the basis; none where such a model would not be much
+// smaller.
+CompressedCurve sweep_compressed(const SweepTask &task) {
     constexpr int most_curves = 3;
     std::shared_ptr<CurveCompression> kept;
     SweepTask curve = task;
-    std::shared_ptr<Branch>
-        whole; // the last one that came to its end: there is none better where the effort ends
+    CompressedCurve last; // the one that came to its end: there is none better where the effort ends
     try {
-        if (!begin_compression(task, kept)) return nullptr;
+        if (!begin_compression(curve, kept)) return last;
+        const HbmOptions options = curve.options;
         CurveCompression &compression = *kept;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced = compression.model();
-            curve.options = options_on(*curve.reduced, task.options);
+            curve.options = options_on(*curve.reduced, options);
             curve.exact = true;
             const auto branch = follow_curve(curve);
-            if (branch->end_reason == reason::cancelled || (!whole && was_stopped(*branch))) return branch;
+            if (branch->end_reason == reason::cancelled || (!last.curve && was_stopped(*branch)))
+                return {branch, true};
             require_unstopped(*branch);
-            if (is_stuck(*branch)) return nullptr;
-            whole = branch;
+            if (is_stuck(*branch)) break;
+            last.curve = branch;
             if (task.level_before) task.level_before->curve = branch;
             const bool confirmed = compression.confirms(*branch);
             if (std::isfinite(compression.error())) branch->model_error = compression.error();
             if (!confirmed && !compression.is_spent()) {
-                if (compression.model() == curve.reduced) return nullptr; // its highest motion is not exact
+                if (compression.model() == curve.reduced) break; // its highest motion is not exact
                 continue;
             }
             if (!compression.confirms_stability(*branch) && k + 1 < most_curves) continue;
-            compression.warn(*branch);
+            last.holds = true;
             if (task.level_before) task.level_before->compression = kept;
-            return branch;
+            break;
         }
     } catch (const Error &e) {
         if (e.status() == status::memory || e.status() == status::callback) throw;
-        if (e.status() != status::cancelled) return nullptr;
-        if (!whole) throw;
-        if (e.reason() == reason::effort)
-            kept->warn(*whole);
-        else
-            whole->end_reason = e.reason();
-        return whole;
+        if (e.status() == status::cancelled) {
+            if (!last.curve) throw;
+            if (e.reason() != reason::effort) last.curve->end_reason = e.reason();
+            last.holds = true;
+        }
     }
-    return nullptr;
+    if (last.curve) kept->warn(*last.curve);
+    return last;
+}
+
+// The curve on the basis itself; the one on less of it where that does not come to its end, or would take
+// more than the effort allowed.
+std::shared_ptr<Branch> follow_beside(const SweepTask &task, const std::shared_ptr<Branch> &compressed) {
+    const double steps = static_cast<double>(compressed->newton_work.iterations);
+    if (steps * exact_step_flops(*task.reduced, task.options) > effort_left()) return compressed;
+    try {
+        const auto branch = follow_curve(task);
+        if (spans(*branch)) return branch;
+        if (branch->end_reason == reason::cancelled) compressed->end_reason = reason::cancelled;
+    } catch (const Error &e) {
+        if (e.status() == status::memory || e.status() == status::callback) throw;
+        if (e.status() == status::cancelled && e.reason() != reason::effort)
+            compressed->end_reason = e.reason();
+    }
+    return compressed;
 }
 
 std::shared_ptr<Branch> sweep_from_its_end(const SweepTask &task) {
-    std::shared_ptr<Branch> branch;
-    if (compresses(*task.reduced, task.options)) branch = sweep_compressed(task);
-    if (!branch) branch = follow_curve(task);
+    CompressedCurve compressed;
+    if (compresses(*task.reduced, task.options)) compressed = sweep_compressed(task);
+    const auto branch = compressed.holds   ? compressed.curve
+                        : compressed.curve ? follow_beside(task, compressed.curve)
+                                           : follow_curve(task);
     check_span(task.options.upward, task.watch, *branch);
     return branch;
 }
@@ -247,26 +284,6 @@ std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task) {
     const bool is_own_limit = look.options.max_points < task.options.max_points;
     if (curve->end_reason == reason::point_limit && is_own_limit) curve->end_reason = reason::effort;
     return curve;
-}
-
-namespace {
-
-// Mean square of what the coordinates do beside their mean.
-double square_of(const BranchPoint &p) {
-    return 0.5 * dot(p.eta.rows() * p.eta.cols(), p.eta.data(), p.eta.data());
-}
-
-} // namespace
-
-bool says_more(const Branch &curve, const Branch &part, Watch watch) {
-    constexpr double lasting = 0.25, larger = 1.2; // of squares: half the size, a tenth more
-    const BranchPoint &top = curve.points()[static_cast<std::size_t>(largest_response(curve))];
-    double known = 0;
-    for (const BranchPoint &p : part.points()) known = std::max(known, square_of(p));
-    if (square_of(top) < larger * known) return false;
-    double after = INFINITY; // a motion that there is no effort to look at is taken at its word
-    within(effort_left(), [&] { after = square_after(curve, top, watch); });
-    return after > lasting * square_of(top) && after > larger * known;
 }
 
 std::shared_ptr<Branch> sweep_whole(const SweepTask &task) {

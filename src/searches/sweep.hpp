@@ -34,11 +34,6 @@ std::shared_ptr<Branch> sweep_whole(const SweepTask &task);
 /// bounces: the fewer harmonics, the simpler the curve. The last one tried where none comes to its end.
 std::shared_ptr<Branch> sweep_with_few_harmonics(const SweepTask &task);
 
-/// Whether a whole curve by harmonics tells of a larger motion than a part of one by exact motions: its
-/// highest one is larger, and the structure goes on so in time, if not exactly. Where no motion is near, as
-/// in a tangle of bounces, it falls to what there is.
-bool says_more(const Branch &curve, const Branch &part, Watch watch);
-
 /// The time that a branch has taken, which is said.
 void finish(Watch watch, std::chrono::steady_clock::time_point begin, Branch &branch);
 

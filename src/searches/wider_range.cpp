@@ -18,7 +18,6 @@ class Widening {
     Widening(const HbmOptions &options, const SweepRange &range, Watch watch, Branch &branch,
              CurveRecorder *recorder)
         : options_(options), range_(range), watch_(watch), branch_(branch), recorder_(recorder),
-          part_(0.5 * (options.frequency_max_hz - options.frequency_min_hz)),
           asked_min_(options.frequency_min_hz), asked_max_(options.frequency_max_hz) {}
 
     void run(const Output *asked) {
@@ -79,12 +78,13 @@ class Widening {
         return is_low(at) ? range_.least_hz >= asked_min_ : range_.most_hz <= asked_max_;
     }
 
+    // By half of the range, or where that is wide at its lower end in proportion to the frequency: resonances
+    // shift by shares of theirs.
     bool move_range(bool low) {
         const double before = options_.frequency_max_hz - options_.frequency_min_hz;
-        if (low)
-            options_.frequency_min_hz = std::max(range_.least_hz, options_.frequency_min_hz - part_);
-        else
-            options_.frequency_max_hz = std::min(range_.most_hz, options_.frequency_max_hz + part_);
+        double &end = low ? options_.frequency_min_hz : options_.frequency_max_hz;
+        const double part = 0.5 * (1 - asked_min_ / asked_max_) * end;
+        end = low ? std::max(range_.least_hz, end - part) : std::min(range_.most_hz, end + part);
         return options_.frequency_max_hz - options_.frequency_min_hz >
                before * (1 + 1e-9); // by more than rounding
     }
@@ -138,7 +138,7 @@ class Widening {
     Watch watch_;
     Branch &branch_;
     CurveRecorder *recorder_;
-    const double part_, asked_min_, asked_max_;
+    const double asked_min_, asked_max_;
     const Output *asked_ = nullptr;
 };
 

@@ -136,5 +136,65 @@ class Silent(unittest.TestCase):
         return most
 
 
+def quads(nx, ny, length, height, young=2.1e5, nu=0.3, rho=7.8e-9):
+    """Bilinear elements of plane stress in a rectangle: K, M, and the node (i, j) as number i (ny + 1) + j."""
+    gauss = np.array([-1, 1]) / np.sqrt(3)
+    x, y = np.array([0, 1, 1, 0]) * length / nx, np.array([0, 0, 1, 1]) * height / ny
+    D = young / (1 - nu**2) * np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]])
+    ke, me = np.zeros((8, 8)), np.zeros((8, 8))
+    for r in gauss:
+        for t in gauss:
+            N = np.array([(1 - r) * (1 - t), (1 + r) * (1 - t), (1 + r) * (1 + t), (1 - r) * (1 + t)]) / 4
+            dN = np.array([[t - 1, 1 - t, 1 + t, -1 - t], [r - 1, -1 - r, 1 + r, 1 - r]]) / 4
+            J = dN @ np.column_stack((x, y))
+            dx, dy = np.linalg.solve(J, dN)
+            B = np.zeros((3, 8))
+            B[0, ::2], B[1, 1::2], B[2, ::2], B[2, 1::2] = dx, dy, dy, dx
+            ke += B.T @ D @ B * np.linalg.det(J)
+            me += rho * np.linalg.det(J) * np.kron(np.outer(N, N), np.eye(2))
+    rows, columns, k, m = [], [], [], []
+    for i in range(nx):
+        for j in range(ny):
+            nodes = np.array([i * (ny + 1) + j, (i + 1) * (ny + 1) + j, (i + 1) * (ny + 1) + j + 1, i * (ny + 1) + j + 1])
+            dofs = (2 * nodes[:, None] + np.arange(2)).ravel()
+            rows += list(np.repeat(dofs, 8))
+            columns += list(np.tile(dofs, 8))
+            k += list(ke.ravel())
+            m += list(me.ravel())
+    n = 2 * (nx + 1) * (ny + 1)
+    return (scipy.sparse.csc_matrix((a, (rows, columns)), (n, n)) for a in (k, m))
+
+
+class ManyPairs(unittest.TestCase):
+    def test_a_delaminated_strip(self):
+        """Two leaves, bonded over one half and loose over the other, where 20 pairs without a gap chatter under a damping of C = beta K.
+        A curve on 6 coordinates is 12 % off; it was given up for one by harmonics that is nine times too high."""
+        nx, ny, pairs = 40, 4, 20
+        K, M = quads(nx, ny, 200.0, 10.0)
+        nodes = K.shape[0] // 2
+        dof = lambda leaf, i, j, c: 2 * (leaf * nodes + i * (ny + 1) + j) + c
+        model = plm.Model(scipy.sparse.block_diag([M, M], "csc"), scipy.sparse.block_diag([K, K], "csc"))
+        model.fix_dofs([dof(leaf, 0, j, c) for leaf in (0, 1) for j in range(ny + 1) for c in (0, 1)])
+        ties = scipy.sparse.lil_matrix((2 * (nx - pairs), 4 * nodes))
+        for i in range(1, nx - pairs + 1):
+            for c in (0, 1):
+                ties[2 * i - 2 + c, dof(0, i, ny, c)], ties[2 * i - 2 + c, dof(1, i, 0, c)] = 1, -1
+        rows = scipy.sparse.lil_matrix((pairs, 4 * nodes))
+        for k in range(pairs):
+            i = nx - pairs + 1 + k
+            rows[k, dof(0, i, ny, 1)], rows[k, dof(1, i, 0, 1)] = 1, -1
+        force = np.zeros(4 * nodes)
+        force[dof(1, nx, ny, 1)], force[dof(0, nx, 0, 1)] = 1, -0.3
+        model.add_constraints(ties.tocsr())
+        model.add_gap_rows(rows.tocsr())
+        model.set_excitation(force)
+        model.set_rayleigh_damping(0, 2e-7)
+        r = model.build().compute_response(dof(1, nx, ny, 1))
+        # 100 modes and shapes, marched from rest at this peak with 4,000 steps a period, tend to 0.708 (what ten periods add falls by
+        # 0.87 from each ten to the next: no digit more)
+        self.assertLess(abs(r.amplitude / 0.708 - 1), 0.02)
+        self.assertLess(r.error, 1e-3)
+
+
 if __name__ == "__main__":
     unittest.main()
