@@ -117,14 +117,23 @@ void warn_of_basis(const BranchPoint &p, const std::string &how_wrong, Watch wat
 
 } // namespace
 
-void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch,
-                 Branch &branch) {
+bool JudgedForce::speaks_for(double other) const {
+    constexpr double somewhat_less = 0.5;
+    return std::abs(other) <= force && std::abs(other) >= somewhat_less * force;
+}
+
+void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch, Branch &branch,
+                 JudgedForce *judged) {
+    constexpr double clearly = 0.5;
     if (!branch.reduced().model || branch.points().empty() || !shows_the_basis(branch)) return;
+    if (judged && judged->speaks_for(branch.force_scale())) return;
+    if (judged) *judged = {};
     const std::int64_t top = largest_response(branch);
     const BranchPoint &p = branch.points()[static_cast<std::size_t>(top)];
     if (window.max_hz > 0 && !is_inside(window, p)) return; // check_window() speaks of that
     if (!has_structure(watch, branch)) return;
     const double residual = branch.full_residual(top);
+    if (judged && residual <= clearly * missed) judged->force = std::abs(branch.force_scale());
     if (residual <= missed) return;
     if (error() <= missed) return; // which NaN is not
     warn_of_basis(p,

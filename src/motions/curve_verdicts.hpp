@@ -11,10 +11,19 @@ namespace plm {
 /// the equations of the whole structure, once, and what they miss decides.
 void check_window(const SweepRange &window, Watch watch, Branch &branch);
 
+/// Of a curve whose motions met the equations of the whole structure clearly: so do those of somewhat less
+/// force.
+struct JudgedForce {
+    double force = 0; // 0: there is none
+    bool speaks_for(double other) const;
+};
+
 /// A basis may be too small inside its window, too, where the contact is much stiffer than what it touches or
 /// many harmonics are needed: the largest response there is judged in the same way, unless `error`, which is
 /// then asked for, knows better: the estimated error (basis_error.hpp), infinite or NaN where there is none.
-void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch, Branch &branch);
+/// judged: not again, where a curve of more force speaks for this one; null: there is none.
+void check_basis(const SweepRange &window, const std::function<double()> &error, Watch watch, Branch &branch,
+                 JudgedForce *judged = nullptr);
 
 /// The same of a peak and its estimated error, which is to be within the accuracy; infinite: its steps do not
 /// contract.

@@ -75,22 +75,22 @@ std::shared_ptr<const Branch> Hbm::judged(const SweepTask &task) const {
     const Clock::time_point begin = Clock::now();
     const auto branch = sweep_whole(task);
     check_damping(watch_, *branch);
-    judge(*branch);
+    judge(*branch, task.level_before);
     branch->seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     if (task.recorder) task.recorder->finish(*branch);
     return branch;
 }
 
 // What is wrong with a finished curve. One that was stopped is delivered at once.
-void Hbm::judge(Branch &curve) const {
+void Hbm::judge(Branch &curve, LevelBefore *before) const {
     if (was_stopped(curve)) return;
-    if (!within(effort_left(), [&] { look_over(curve); }))
+    if (!within(effort_left(), [&] { look_over(curve, before); }))
         curve.warnings.add(reason::effort,
                            "the effort allowed was spent before the curve was compared with the "
                            "whole structure; raise the effort of the context");
 }
 
-void Hbm::look_over(Branch &curve) const {
+void Hbm::look_over(Branch &curve, LevelBefore *before) const {
     curve.set_multiplier_error(multiplier_error_of(
         made_as_, options_, curve, std::max(EffortBudget::aside, flops_of(curve, options_)), watch_));
     check_window(window_, watch_, curve);
@@ -99,7 +99,7 @@ void Hbm::look_over(Branch &curve) const {
         return basis_error_at(made_as_, options_, curve, top, most_moving(curve, top), EffortBudget::aside,
                               watch_);
     };
-    check_basis(window_, error, watch_, curve);
+    check_basis(window_, error, watch_, curve, before ? &before->judged : nullptr);
     check_switching(watch_, curve);
 }
 

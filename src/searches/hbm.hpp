@@ -60,8 +60,8 @@ class Hbm {
     using Clock = std::chrono::steady_clock;
     SweepTask task() const;
     std::shared_ptr<const Branch> judged(const SweepTask &task) const;
-    void judge(Branch &curve) const;
-    void look_over(Branch &curve) const;
+    void judge(Branch &curve, LevelBefore *before) const;
+    void look_over(Branch &curve, LevelBefore *before) const;
     BranchPoint first_guess(const Branch &start, std::int64_t point) const;
 
     /// The model that a branch of this basis was computed on. PLM_ERR_ARGUMENT for one of another basis.

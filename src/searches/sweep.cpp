@@ -122,7 +122,7 @@ std::shared_ptr<Branch> sweep_compressed(const SweepTask &task) {
         CurveCompression &compression = *kept;
         for (int k = 0; k < most_curves; ++k) {
             curve.reduced = compression.model();
-            curve.options = options_on(*curve.reduced, task.options);
+            curve.options = options_on(*curve.reduced, compression.options());
             curve.exact = true;
             const auto branch = follow_curve(curve);
             if (branch->end_reason == reason::cancelled || (!whole && was_stopped(*branch))) return branch;

@@ -1,6 +1,7 @@
 // A whole response curve, from either end of its range, by exact motions or harmonics.
 #pragma once
 #include "motions/curve_recorder.hpp"
+#include "motions/curve_verdicts.hpp"
 #include "reduction/sweep_range.hpp"
 #include "searches/single_response.hpp"
 #include <chrono>
@@ -13,6 +14,7 @@ class CurveCompression; // compressed_curve.hpp
 struct LevelBefore {
     std::shared_ptr<CurveCompression> compression; // that it was followed on; null: on the whole basis
     std::shared_ptr<const Branch> curve;           // null: there is none yet
+    JudgedForce judged = {};                       // with the whole structure
 };
 
 struct SweepTask : ResponseTask {
