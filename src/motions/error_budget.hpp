@@ -2,9 +2,25 @@
 // looked at one by one and errors rarely add up in full, so that the shares need not sum to one.
 #pragma once
 #include "linalg/error.hpp"
+#include <algorithm>
+#include <cmath>
 #include <string>
 
 namespace plm {
+
+/// What was wrong with a curve of a force level.
+struct ErrorAtForce {
+    double force = 0, error = 0;
+};
+
+/// The same at the next level: it goes on as a power of the force, and a steep one is chance. 0: the two do
+/// not tell.
+inline double foretold(const ErrorAtForce &before, const ErrorAtForce &last, double next) {
+    constexpr double steepest = 3;
+    if (!(before.error > 0 && last.error > 0 && before.force != last.force && next > 0)) return 0;
+    const double power = std::log(last.error / before.error) / std::log(last.force / before.force);
+    return last.error * std::pow(next / last.force, std::max(-steepest, std::min(steepest, power)));
+}
 
 class ErrorBudget {
   public:

@@ -41,9 +41,9 @@ class DenseTangent final : public BorderedTangent {
 } // namespace
 
 ExactEquations::ExactEquations(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
-                               double omega)
+                               double omega, const BranchPoint *known)
     : options_(options),
-      orbits_(orbit_equations(std::move(reduced), options, omega, FlowParameter::frequency)),
+      orbits_(orbit_equations(std::move(reduced), options, omega, FlowParameter::frequency, known)),
       by_force_(orbit_equations(orbits_, options, omega, FlowParameter::force_scale)), omega_(omega) {
     harmonic_ = driven_harmonic(orbits_.model().excitation());
     if (harmonic_ == 0) return;

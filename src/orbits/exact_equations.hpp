@@ -8,8 +8,10 @@ namespace plm {
 
 class ExactEquations final : public PeriodicEquations {
   public:
-    /// omega: a frequency near by, at which the unknowns are measured and the flow's model is made.
-    ExactEquations(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options, double omega);
+    /// omega: a frequency near by, at which the unknowns are measured and the flow's model is made. known: an
+    /// exact motion whose contact sets are taken over if it is of the same model, or null.
+    ExactEquations(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options, double omega,
+                   const BranchPoint *known = nullptr);
     OrbitEquations &orbits() { return orbits_; }
 
     std::int64_t size() const override { return orbits_.size(); }

@@ -32,9 +32,10 @@ ExactFlow OrbitConditions::flow(std::shared_ptr<const FlowModel> model,
 }
 
 OrbitEquations::OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest,
-                               const OrbitConditions &conditions, FlowParameter parameter)
+                               const OrbitConditions &conditions, FlowParameter parameter,
+                               std::shared_ptr<ContactModesKept> modes)
     : model_(std::move(model)), rest_(std::move(rest)), conditions_(conditions), parameter_(parameter),
-      modes_(std::make_shared<ContactModesKept>(model_)), weight_(size()) {
+      modes_(modes ? std::move(modes) : std::make_shared<ContactModesKept>(model_)), weight_(size()) {
     run_.x.resize(size());
     run_.end.resize(size());
     run_.change.resize(size());
@@ -86,9 +87,7 @@ void OrbitEquations::take(const EquationsMemory &memory) {
 }
 
 OrbitEquations OrbitEquations::beside(const OrbitConditions &conditions, FlowParameter parameter) const {
-    OrbitEquations others(model_, rest_, conditions, parameter);
-    others.modes_ = modes_;
-    return others;
+    return OrbitEquations(model_, rest_, conditions, parameter, modes_);
 }
 
 FlowState OrbitEquations::state(const double *x) const {
@@ -119,6 +118,7 @@ void OrbitEquations::run(const double *x, double p) {
     run_.p = p;
     run_.known = true;
     run_.failed = false;
+    run_.monodromy_error = INFINITY;
     const OrbitConditions now = conditions(p);
     try {
         ExactFlow flow = now.flow(model_, modes_);
@@ -149,11 +149,13 @@ void OrbitEquations::residual(const double *x, double p, double *r) {
 }
 
 bool OrbitEquations::is_small() const {
-    return model_->n_moving() < large && conditions_.tolerance < loose;
+    return model_->n_moving() < large;
 }
 
 void OrbitEquations::linearize() {
-    linearize_within(is_small() ? 1e-15 : enough);
+    const double error = is_small() ? 1e-15 : enough;
+    if (run_.monodromy_error <= error) return;
+    linearize_within(error);
     if (is_small() || run_.failed || run_.overflown) return;
     std::swap(before_, last_);
     last_ = {run_.x, run_.p, run_.monodromy};
@@ -183,6 +185,7 @@ bool OrbitEquations::guess_monodromy() {
     if (!(std::abs(factor) <= farthest_guess)) return false;
     const std::int64_t n = size();
     run_.monodromy = last_.change;
+    run_.monodromy_error = INFINITY;
     for (std::int64_t k = 0; k < n * n; ++k)
         run_.monodromy.data()[k] += factor * (last_.change.data()[k] - before_.change.data()[k]);
     factor_tangent();
@@ -201,6 +204,7 @@ void OrbitEquations::linearize_within(double tolerance) {
     // of a motion that grows so fast nothing is left to correct by
     run_.overflown = !all_finite(run_.monodromy.data(), n * n);
     if (run_.overflown) run_.monodromy.reset(n, n);
+    run_.monodromy_error = tolerance;
     factor_tangent();
 }
 

@@ -24,9 +24,10 @@ class OrbitEquations final : public Residual {
   public:
     /// The path's parameter: the frequency (rad/s, of the excitation) or the force scale. Unknowns count from
     /// `rest`, displacements by the root of lambda + omega^2, so that |x|^2 is an energy. Structural damping
-    /// depends on the frequency: such a model serves at one frequency only.
+    /// depends on the frequency: such a model serves at one frequency only. modes: of the contact sets that
+    /// others of that model have come by; null: of none.
     OrbitEquations(std::shared_ptr<const FlowModel> model, FlowState rest, const OrbitConditions &conditions,
-                   FlowParameter parameter);
+                   FlowParameter parameter, std::shared_ptr<ContactModesKept> modes = nullptr);
     /// Others of the same model, which come by the same contact sets.
     OrbitEquations beside(const OrbitConditions &conditions, FlowParameter parameter) const;
 
@@ -91,6 +92,7 @@ class OrbitEquations final : public Residual {
         bool known = false, failed = false, overflown = false;
         std::vector<ContactInterval> intervals;
         Matrix monodromy;
+        double monodromy_error = INFINITY; // what it was asked for within; infinite: not known, or guessed
         mutable vector<std::complex<double>> multipliers; // empty: not asked for yet
         RealLu lu;
     };

@@ -25,6 +25,7 @@ class OrbitMotion final : public PointMotion {
           conditions_(conditions), closed_shares_(std::move(closed_shares)) {}
 
     const FlowState &start() const { return start_; }
+    PointFlow flow() const { return {model_, modes_}; }
     double tolerance() const { return conditions_.tolerance; }
 
     ValueRange range(std::int64_t dof) const override {
@@ -192,6 +193,11 @@ void put_harmonics(const FlowModel &model, const RecordedMotion &motion, const M
 FlowState start_of(const FlowModel &model, const BranchPoint &point, std::int64_t period_multiple) {
     if (const auto *motion = dynamic_cast<const OrbitMotion *>(point.motion.get())) return motion->start();
     return model.state(point.eta_0, point.eta, point.omega / static_cast<double>(period_multiple), 0.0);
+}
+
+PointFlow flow_of(const BranchPoint &point) {
+    const auto *motion = dynamic_cast<const OrbitMotion *>(point.motion.get());
+    return motion ? motion->flow() : PointFlow();
 }
 
 bool kept_orbit(const BranchPoint &point, KeptOrbit &kept) {

@@ -21,6 +21,13 @@ vector<double> orbit_unknowns(const OrbitEquations &equations, const BranchPoint
 BranchPoint orbit_point(const OrbitEquations &equations, const MotionOptions &options, const PathState &at,
                         double residual, std::int64_t iterations);
 
+/// The flow that an exact motion is of; null: the point has none.
+struct PointFlow {
+    std::shared_ptr<const FlowModel> model;
+    std::shared_ptr<ContactModesKept> modes;
+};
+PointFlow flow_of(const BranchPoint &point);
+
 /// What an exact motion follows from, beside the point that carries it. False: the point has none.
 struct KeptOrbit {
     FlowState start; // y, v at the beginning of the period

@@ -67,10 +67,13 @@ bool march_to_orbit(OrbitEquations &equations, const MotionOptions &options, dou
 }
 
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
-                               double omega, FlowParameter parameter) {
-    auto model = std::make_shared<const FlowModel>(std::move(reduced), omega);
-    FlowState rest = rest_state(*model);
-    return OrbitEquations(std::move(model), std::move(rest), orbit_conditions(options, omega), parameter);
+                               double omega, FlowParameter parameter, const BranchPoint *known) {
+    PointFlow flow = known ? flow_of(*known) : PointFlow();
+    if (!flow.model || &flow.model->reduced() != reduced.get())
+        flow = {std::make_shared<const FlowModel>(std::move(reduced), omega), nullptr};
+    FlowState rest = rest_state(*flow.model);
+    return OrbitEquations(std::move(flow.model), std::move(rest), orbit_conditions(options, omega), parameter,
+                          std::move(flow.modes));
 }
 
 OrbitEquations orbit_equations(const OrbitEquations &known, const MotionOptions &options, double omega,

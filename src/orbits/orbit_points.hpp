@@ -9,9 +9,10 @@
 
 namespace plm {
 
-/// Unknowns are measured at `omega`, where the flow's model is made, too.
+/// Unknowns are measured at `omega`, where the flow's model is made, too; unless `known`, if not null, is an
+/// exact motion of the same model, without structural damping: with the contact sets of its flow then.
 OrbitEquations orbit_equations(std::shared_ptr<const ReducedModel> reduced, const MotionOptions &options,
-                               double omega, FlowParameter parameter);
+                               double omega, FlowParameter parameter, const BranchPoint *known = nullptr);
 /// Others of the same model, without structural damping or at the same frequency: with the modes of the
 /// contact sets that those have come by.
 OrbitEquations orbit_equations(const OrbitEquations &known, const MotionOptions &options, double omega,

@@ -16,7 +16,7 @@ constexpr double first_step = 0.2,
                  step_after_rescue = 0.05; // of the largest: nothing is known of the path ahead
 
 // Than the longest steps of its own is one that a neighbouring path shows the end of.
-constexpr double longer_if_foreseen = 3;
+constexpr double longer_if_foreseen = 4;
 
 // Where a correction may lead: it moves in the plane across the step, so that the distance from the last
 // point is about that step, unless it has come upon another piece of the path.
@@ -135,8 +135,8 @@ class Continuation {
         if (!(out.factored_away < std::min(PathWalker::at_the_point, share_of_step * moved)))
             walker_.linearize_at_solution();
         walker_.make_tangent(&old_tangent);
-        const double cosine = walker_.cosine_with_tangent(old_tangent),
-                     angle = std::acos(std::min(1.0, std::max(-1.0, cosine)));
+        const double turn = walker_.angle_with_tangent(old_tangent),
+                     angle = foreseen_ ? walker_.angle_with_tangent(across) : turn; // not as expected
         if (angle > PathWalker::sharp_angle &&
             out_.step > shortenable * options_.min_step) { // a corner: closer first
             walker_.move(before);
@@ -151,7 +151,7 @@ class Continuation {
         if (angle > PathWalker::sharp_angle) out_.last_step = 0; // a corner is no bend
         out_.orientation = walker_.orientation();
         way_ = way_to_change(old_tests, out_.tests, moved, options_.max_step);
-        out_.step = std::min(way_, out_.step * step_growth(angle * out_.step / step, out));
+        out_.step = std::min(way_, out_.step * step_growth(turn * out_.step / step, out));
         out_.step = std::min(options_.max_step, std::max(options_.min_step, out_.step));
     }
 

@@ -4,6 +4,8 @@
 #include "paths/newton.hpp"
 #include "paths/path.hpp"
 #include "paths/path_progress.hpp"
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace plm {
@@ -24,6 +26,9 @@ class PathWalker {
     const Metric &metric() const { return metric_; }
     double cosine_with_tangent(const PathState &direction) const {
         return metric_.product(tangent_, direction);
+    }
+    double angle_with_tangent(const PathState &direction) const {
+        return std::acos(std::min(1.0, std::max(-1.0, cosine_with_tangent(direction))));
     }
     std::int32_t kind(std::size_t test) const { return kinds_[test]; }
     std::size_t n_tests() const { return kinds_.size(); }

@@ -1,7 +1,6 @@
 #include "searches/compressed_curve.hpp"
 #include "motions/compressed_motion.hpp"
 #include "motions/effort_budget.hpp"
-#include "motions/error_budget.hpp"
 #include "motions/motion_measures.hpp"
 #include "orbits/orbit_cost.hpp"
 #include "orbits/orbit_point.hpp"
@@ -222,17 +221,17 @@ bool CurveCompression::begin_with(const Branch &look) {
 // What compression leaves out is a share of the motions, which are about as large as the force.
 void CurveCompression::go_on(const HbmOptions &options, const Branch &curve) {
     const double force = std::abs(options_.force_scale), next = std::abs(options.force_scale);
-    const Level before = last_;
+    const ErrorAtForce before = last_;
     last_ = {force, change_};
     if (better_ != whole_) left_out_ /= ErrorBudget::next_try; // the last one was better than it needed to be
-    // The error of the last two levels goes on as a power of the force.
-    if (better_ == whole_ && before.change > 0 && change_ > 0 && before.force != force && next > 0) {
-        const double power = std::log(change_ / before.change) / std::log(force / before.force),
-                     growth = std::pow(next / force, power);
-        if (growth * change_ > tolerance() && grow_to(tolerance_predicted(), curve)) last_ = {};
-    }
+    if (better_ == whole_ && !outgrown_ &&
+        foretold(before, last_, next) > ErrorBudget(options_.accuracy).compressed_before_another() &&
+        grow_to(tolerance_predicted(), curve))
+        last_ = {};
     if (force > 0 && next > 0) scale_ *= next / force;
     options_ = options;
+    // what the model leaves out of the motions is known by now, and more digits of them are of no use
+    options_.tolerance = std::max(options.tolerance, ErrorBudget(options.accuracy).dear_motions());
 }
 
 CurveCompression::Needs CurveCompression::needs_at(const ReducedModel &model,
@@ -289,14 +288,15 @@ bool CurveCompression::grow_at(const ReducedModel &model, const BranchPoint &poi
 }
 
 bool CurveCompression::confirms(const Branch &curve) {
-    better_ = nullptr, change_ = INFINITY;
+    better_ = nullptr, change_ = INFINITY, outgrown_ = false;
     top_ = largest_response(curve);
     const BranchPoint &exact = curve.points()[static_cast<std::size_t>(top_)];
     if (!exact.motion) return false;
     if (!is_dear(*whole_) && find_on_whole(curve, top_, top_on_better_)) {
         compare_with_whole(curve);
         if (change_ <= ErrorBudget(options_.accuracy).compressed_before_another()) return true;
-        return !grow_to(tolerance_predicted(), curve) && change_ <= options_.accuracy;
+        outgrown_ = !grow_to(tolerance_predicted(), curve);
+        return outgrown_ && change_ <= options_.accuracy;
     }
     std::vector<Point> one(1);
     one[0].motion = uncompressed(curve.reduced(), exact);

@@ -6,6 +6,7 @@
 #include "hbm/options.hpp"
 #include "linalg/monitor.hpp"
 #include "motions/branch.hpp"
+#include "motions/error_budget.hpp"
 #include "orbits/orbit_points.hpp"
 #include "searches/basis_error.hpp"
 
@@ -38,8 +39,9 @@ class CurveCompression {
     bool begin_with(const Branch &look);
     /// From a curve that was confirmed to that of another force level, whose motions are much like it.
     void go_on(const HbmOptions &options, const Branch &curve);
-    /// To follow the curve on.
+    /// To follow the curve on, and how.
     const std::shared_ptr<const ReducedModel> &model() const { return model_; }
+    const HbmOptions &options() const { return options_; }
     /// Whether the highest motion of the curve on that model is as the whole basis has it; if not, model() is
     /// a better one.
     bool confirms(const Branch &curve);
@@ -57,11 +59,6 @@ class CurveCompression {
     bool confirms_stability(const Branch &curve);
 
   private:
-    /// Of a curve that was confirmed.
-    struct Level {
-        double force = 0, change = 0;
-    };
-
     /// What the model is made from.
     struct Needs {
         Matrix motions; // of the whole basis, mean parts among them, as shares of the largest
@@ -127,8 +124,9 @@ class CurveCompression {
     BranchPoint top_on_better_;
     // They know the contact sets of the curves before.
     std::shared_ptr<const OrbitEquations> on_whole_;
-    Level last_;           // of force; none: the model has changed since
-    std::string doubtful_; // where stability is not as on the curve; empty: nowhere
+    ErrorAtForce last_;     // of a curve that was confirmed; none: the model has changed since
+    bool outgrown_ = false; // no model that is much smaller than the whole one is nearer to it
+    std::string doubtful_;  // where stability is not as on the curve; empty: nowhere
 };
 
 } // namespace plm

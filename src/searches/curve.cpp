@@ -10,7 +10,8 @@ namespace {
 
 void trace_exact_curve(const HbmOptions &options, const CurveStart &start, Watch watch, Branch &branch,
                        CurveRecorder *recorder) {
-    ExactEquations equations(branch.reduced_model(), options, start.point.omega);
+    const BranchPoint *known = start.beside ? &start.beside->points().front() : nullptr;
+    ExactEquations equations(branch.reduced_model(), options, start.point.omega, known);
     branch.unknowns_used = "state";
     CurveTracer(&equations, options, watch, branch, recorder).run(start);
     equations.orbits().modes()->forget_transitions(); // the points of the branch keep the modes

@@ -107,6 +107,7 @@ bool begin_compression(SweepTask &task, std::shared_ptr<CurveCompression> &compr
     if (task.level_before && task.level_before->compression) {
         compression = std::move(task.level_before->compression);
         compression->go_on(task.options, *task.level_before->curve);
+        task.options = compression->options();
         return true;
     }
     compression = std::make_shared<CurveCompression>(task.reduced, task.options,

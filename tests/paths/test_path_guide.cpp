@@ -121,7 +121,8 @@ void the_same_path_by_fewer_steps(void **) {
                     guided.owner.points.size(), static_cast<long long>(guided.out.work.iterations),
                     alone.owner.points.size(), static_cast<long long>(alone.out.work.iterations));
         assert_true(same_ends_and_folds(guided, alone));
-        assert_true(4 * guided.owner.points.size() < 3 * alone.owner.points.size());
+        assert_true(2 * guided.owner.points.size() < alone.owner.points.size());
+        assert_int_equal(guided.out.failed_steps, 0); // turns that are foreseen are no corners
         assert_true(guided.out.work.iterations < alone.out.work.iterations);
         assert_true(std::abs(highest(guided) / highest(alone) - 1) < 0.02);
         before = std::move(guided);

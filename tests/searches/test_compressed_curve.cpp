@@ -194,7 +194,7 @@ void a_level_goes_on_from_the_one_before(void **) {
     std::printf("    a level takes %.2g of the work of its curve alone\n", share);
     assert_true(before.compression != nullptr && level->reduced().from != nullptr);
     assert_true(below(std::abs(p.peak(half, level).amplitude / right - 1), allowed));
-    assert_true(below(share, 0.75)); // by longer steps, on a model that has more than half the force needs
+    assert_true(below(share, 0.5)); // by longer steps, on a model and with contact sets that are known
 }
 
 struct GoneOn {
