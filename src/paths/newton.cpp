@@ -67,7 +67,6 @@ class Newton {
                     apply(1.0, next_, next_parameter);
                     return finish_here(size);
                 }
-                const bool was_fresh = fresh_;
                 fresh_ = false;
                 if (damping == 1 && serves_again(next_size, contraction)) {
                     step_.swap(next_);
@@ -75,14 +74,8 @@ class Newton {
                     size = next_size;
                     continue;
                 }
-                const double curvature = was_fresh && damping == 1 ? contraction / size : INFINITY;
                 refactor();
                 size = correction(r_, step_, step_parameter_);
-                if (cheap_ && fresh_ && leaves(curvature * size * size)) {
-                    ++out_.iterations;
-                    apply(1.0, step_, step_parameter_);
-                    return finish_here(size);
-                }
                 damping =
                     std::min(1.0, damping * (contraction < good_contraction ? bold_growth : careful_growth));
                 continue;
@@ -104,9 +97,9 @@ class Newton {
 
   private:
     // The correction by a tangent of some point before leaves a part of itself.
-    bool is_last(double size, double contraction) const { return leaves(contraction * size); }
-    // Whether a correction is the last one that is expected to leave so much.
-    bool leaves(double size) const { return size <= left_at_last() * goal() + smallest(); }
+    bool is_last(double size, double contraction) const {
+        return size <= allowed() && contraction * size <= left_at_last() * goal() + smallest();
+    }
     double left_at_last() const { return goal() < loose ? remainder : loose_remainder; }
     // Whether the factorization serves for the correction after that, too. One that costs less than a
     // residual is made anew, since it gains as many digits as there are, unless the old one suffices for the
