@@ -80,7 +80,7 @@ RULES = [
 
 # How large a room may be: lines of its files, and numbers by which it is tuned (constants that are given as numbers). A room that
 # takes in what others could hold grows in both. Where one gets smaller its limit follows.
-SIZES = {"searches": {"lines": 4475, "tuning constants": 59}}
+SIZES = {"searches": {"lines": 4475, "tuning constants": 57}}
 
 
 def code_of(path):
