@@ -31,6 +31,7 @@ set(PLM_CARRIED_FFTW)
 set(PLM_CARRIED_SCOTCH)
 set(plm_carried_names)
 set(plm_carried_parts)
+set(plm_scotch_names)
 if(PLM_CARRY AND PLM_WITH_CHOLMOD)
     plm_find_archives(PLM_CARRIED_CHOLMOD cholmod amd colamd suitesparseconfig)
 endif()
@@ -54,9 +55,9 @@ if(PLM_CARRIED_CHOLMOD)
 endif()
 if(PLM_CARRIED_SCOTCH)
     foreach(name graphInit graphBuild graphOrder stratInit stratExit stratGraphOrderBuild randomReset version)
-        list(APPEND plm_carried_names SCOTCH_${name})
+        list(APPEND plm_scotch_names SCOTCH_${name})
     endforeach()
-    list(APPEND plm_carried_parts scotch_parts.cpp)
+    list(APPEND plm_carried_names ${plm_scotch_names})
 endif()
 if(PLM_CARRIED_FFTW)
     list(APPEND plm_carried_names fftw_plan_dft_r2c_1d fftw_plan_dft_c2r_1d fftw_destroy_plan fftw_execute fftw_version)
@@ -78,23 +79,33 @@ foreach(name ${plm_carried_names})
     string(APPEND plm_new_names "${name} carried_${name}\n")
 endforeach()
 
-list(TRANSFORM plm_carried_parts PREPEND ${PROJECT_SOURCE_DIR}/src/linalg/carried/)
-add_library(plm_carried_parts OBJECT ${plm_carried_parts})
-target_include_directories(plm_carried_parts PRIVATE ${PROJECT_SOURCE_DIR}/src)
-if(PLM_CARRIED_CHOLMOD)
-    target_include_directories(plm_carried_parts SYSTEM PRIVATE ${PLM_CHOLMOD_INCLUDE})
+# plm_carry_parts(<target> <file of src/linalg/carried>...): our own parts, compiled
+function(plm_carry_parts target)
+    list(TRANSFORM ARGN PREPEND ${PROJECT_SOURCE_DIR}/src/linalg/carried/ OUTPUT_VARIABLE files)
+    add_library(${target} OBJECT ${files})
+    target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    if(PLM_CARRIED_CHOLMOD)
+        target_include_directories(${target} SYSTEM PRIVATE ${PLM_CHOLMOD_INCLUDE})
+    endif()
+    # nothing of a sanitizer's or a fuzzer's: these stand among functions that were compiled without
+    if(PLM_SANITIZE)
+        target_compile_options(${target} PRIVATE -fno-sanitize=all)
+    endif()
+endfunction()
+set(plm_parts)
+if(plm_carried_parts)
+    plm_carry_parts(plm_carried_parts ${plm_carried_parts})
+    list(APPEND plm_parts plm_carried_parts)
 endif()
-# nothing of a sanitizer's or a fuzzer's: these stand among functions that were compiled without
-if(PLM_SANITIZE)
-    target_compile_options(plm_carried_parts PRIVATE -fno-sanitize=all)
+if(PLM_CARRIED_SCOTCH)
+    plm_carry_parts(plm_scotch_parts scotch_parts.cpp)
+    list(APPEND plm_parts plm_scotch_parts)
 endif()
 
 set(plm_carried_folder ${PROJECT_BINARY_DIR}/carried)
 string(REPLACE ";" "\n" plm_kept "${plm_carried_names}")
 file(WRITE ${plm_carried_folder}/kept "${plm_kept}\ncarried_fftw_may_work\ncarried_scotch_scans\ncarried_scotch_release\n")
 file(WRITE ${plm_carried_folder}/renamed "${plm_new_names}")
-list(TRANSFORM plm_carried_names PREPEND LINKER:--undefined= OUTPUT_VARIABLE plm_wanted)
-list(TRANSFORM plm_wanted REPLACE "^LINKER:" "-Wl,")
 # SCOTCH does not bear a malloc that fails: it gets one that throws, and that knows what is to be given back then.
 set(plm_scotch)
 if(PLM_CARRIED_SCOTCH)
@@ -104,17 +115,32 @@ if(PLM_CARRIED_SCOTCH)
         COMMAND ${CMAKE_OBJCOPY} --redefine-sym malloc=carried_scotch_malloc --redefine-sym realloc=carried_scotch_realloc
                 --redefine-sym free=carried_scotch_free ${PLM_CARRIED_SCOTCH} ${plm_scotch}
         DEPENDS ${PLM_CARRIED_SCOTCH} VERBATIM COMMENT "SCOTCH with the library's malloc")
+    add_custom_target(plm_scotch_archive DEPENDS ${plm_scotch})
 endif()
+
+# plm_carry(<name> PARTS <target>... NAMES <function>... ARCHIVES <file>...): carried/<name>.o by the target plm_<name>_object
+function(plm_carry name)
+    cmake_parse_arguments(PARSE_ARGV 1 carry "" "" "PARTS;NAMES;ARCHIVES")
+    set(all ${plm_carried_folder}/${name}_all.o)
+    set(object ${plm_carried_folder}/${name}.o)
+    set(parts)
+    foreach(part ${carry_PARTS})
+        list(APPEND parts $<TARGET_OBJECTS:${part}>)
+    endforeach()
+    list(TRANSFORM carry_NAMES PREPEND "-Wl,--undefined=")
+    add_custom_command(
+        OUTPUT ${object}
+        COMMAND ${CMAKE_C_COMPILER} -r -nostdlib -Wl,--force-group-allocation -o ${all} ${parts} ${carry_NAMES} ${carry_ARCHIVES}
+        COMMAND ${CMAKE_OBJCOPY} --keep-global-symbols=${plm_carried_folder}/kept ${all}
+        COMMAND ${CMAKE_OBJCOPY} --redefine-syms=${plm_carried_folder}/renamed ${all} ${object}
+        DEPENDS ${carry_PARTS} ${parts} ${carry_ARCHIVES} ${plm_carried_folder}/kept ${plm_carried_folder}/renamed
+        COMMAND_EXPAND_LISTS VERBATIM
+        COMMENT "Carrying CHOLMOD, SCOTCH and FFTW: ${name}")
+    add_custom_target(plm_${name}_object DEPENDS ${object})
+    if(TARGET plm_scotch_archive) # of all that need it one makes it
+        add_dependencies(plm_${name}_object plm_scotch_archive)
+    endif()
+endfunction()
+plm_carry(carried PARTS ${plm_parts} NAMES ${plm_carried_names} ARCHIVES ${PLM_CARRIED_CHOLMOD} ${plm_scotch} ${PLM_CARRIED_FFTW})
 set(PLM_CARRIED_OBJECT ${plm_carried_folder}/carried.o)
-add_custom_command(
-    OUTPUT ${PLM_CARRIED_OBJECT}
-    COMMAND ${CMAKE_C_COMPILER} -r -nostdlib -Wl,--force-group-allocation -o ${plm_carried_folder}/all.o $<TARGET_OBJECTS:plm_carried_parts> ${plm_wanted}
-            ${PLM_CARRIED_CHOLMOD} ${plm_scotch} ${PLM_CARRIED_FFTW}
-    COMMAND ${CMAKE_OBJCOPY} --keep-global-symbols=${plm_carried_folder}/kept ${plm_carried_folder}/all.o
-    COMMAND ${CMAKE_OBJCOPY} --redefine-syms=${plm_carried_folder}/renamed ${plm_carried_folder}/all.o ${PLM_CARRIED_OBJECT}
-    DEPENDS plm_carried_parts $<TARGET_OBJECTS:plm_carried_parts> ${PLM_CARRIED_CHOLMOD} ${plm_scotch}
-            ${PLM_CARRIED_FFTW} ${plm_carried_folder}/kept ${plm_carried_folder}/renamed
-    COMMAND_EXPAND_LISTS VERBATIM
-    COMMENT "Carrying CHOLMOD, SCOTCH and FFTW")
-add_custom_target(plm_carried_object DEPENDS ${PLM_CARRIED_OBJECT})
 target_link_libraries(plm_dep_carried INTERFACE ${PLM_CARRIED_OBJECT})

@@ -2,6 +2,7 @@
 #pragma once
 #include "mpi/entries.hpp"
 #include "mpi/exchange.hpp"
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -55,9 +56,26 @@ class Matrices {
             const std::int64_t dof = rows.owned()[static_cast<std::size_t>(i)];
             for (std::size_t p = start_[static_cast<std::size_t>(i)];
                  p < start_[static_cast<std::size_t>(i) + 1]; ++p)
-                if (column_dof(rows, column_[p]) <= dof)
-                    visit(dof, column_dof(rows, column_[p]), entry(p, w));
+                if (dof_of_column(rows, column_[p]) <= dof)
+                    visit(dof, dof_of_column(rows, column_[p]), entry(p, w));
         }
+    }
+    /// Where the entries of a row of this rank stand: own rows, and from rows() on DOFs of other ranks.
+    struct Columns {
+        const std::int32_t *first, *last;
+        const std::int32_t *begin() const { return first; }
+        const std::int32_t *end() const { return last; }
+        bool operator==(const Columns &other) const {
+            return std::equal(first, last, other.first, other.last);
+        }
+    };
+    Columns columns(std::int64_t row) const {
+        const auto i = static_cast<std::size_t>(row);
+        return {column_.data() + start_[i], column_.data() + start_[i + 1]};
+    }
+    std::int64_t dof_of_column(const Rows &rows, std::int64_t column) const {
+        return column < this->rows() ? rows.owned()[static_cast<std::size_t>(column)]
+                                     : ghosts_[static_cast<std::size_t>(column - this->rows())];
     }
     std::int64_t entries_here() const { return static_cast<std::int64_t>(column_.size()); }
 
@@ -87,10 +105,6 @@ class Matrices {
 
     double entry(std::size_t p, const Weights &w) const {
         return w.m * value_[0][p] + w.k * value_[1][p] + (w.c != 0 ? w.c * value_[2][p] : 0);
-    }
-    std::int64_t column_dof(const Rows &rows, std::int64_t column) const {
-        return column < this->rows() ? rows.owned()[static_cast<std::size_t>(column)]
-                                     : ghosts_[static_cast<std::size_t>(column - this->rows())];
     }
     /// Value of a column's entry, own or of another rank.
     const double &of(const double *y, std::int64_t ld, std::int64_t column, std::int64_t j) const {

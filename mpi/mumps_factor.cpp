@@ -1,6 +1,7 @@
 #include "mpi/mumps_factor.hpp"
 #include <algorithm>
 #include <cmath>
+#include <sys/mman.h>
 
 namespace plm::mpi {
 namespace {
@@ -24,16 +25,41 @@ void require_success(const DMUMPS_STRUC_C &mumps, const char *what) {
         .library_code(code);
 }
 
+/// MUMPS gives large numbers in negative millions.
+std::size_t counted(MUMPS_INT n) {
+    return n < 0 ? static_cast<std::size_t>(-static_cast<std::int64_t>(n)) * 1000000
+                 : static_cast<std::size_t>(n);
+}
+
 } // namespace
 
+void Workspace::resize(std::size_t bytes) {
+    if (data_) munmap(data_, bytes_);
+    data_ = nullptr, bytes_ = 0;
+    if (bytes == 0) return;
+    void *got = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (got == MAP_FAILED) throw std::bad_alloc();
+    data_ = got, bytes_ = bytes;
+}
+
+void Workspace::keep_first(std::size_t bytes) {
+    constexpr std::size_t page = std::size_t(1) << 16; // a multiple of any machine's
+    const std::size_t kept = (bytes + page - 1) / page * page;
+    if (kept < bytes_) madvise(static_cast<char *>(data_) + kept, bytes_ - kept, MADV_DONTNEED);
+}
+
 void MumpsFactor::make(Team &team, const Rows &rows, const Matrices &matrices, const FactorTask &task,
-                       KeptOrder &order) {
+                       KeptOrder &kept) {
+    if (kept.added != task.n_added) {
+        kept.added = -1;
+        kept.order = order_of_nodes(team, rows, matrices, {task.row, task.column, task.n_added});
+    }
     team.together([&] { take_entries(team, rows, matrices, task); });
     set_up(team);
     mumps_.n = static_cast<MUMPS_INT>(rows.n_dof());
     try { // what fails, fails on all ranks alike: that is what makes a collective release possible here
-        analyse(team, task, order);
-        factorize(team);
+        analyse(team, task, kept);
+        factorize(team, task);
         judge(task);
         if (!task.count_only && outcome_ == Outcome::factored) make_room(team, rows);
     } catch (...) {
@@ -48,6 +74,7 @@ void MumpsFactor::release() {
     alive_ = false;
     mumps_.job = -2;
     dmumps_c(&mumps_);
+    workspace_.resize(0);
 }
 
 /// The lower triangle of this rank's rows. DOFs that are held keep a diagonal entry alone, of a usual size.
@@ -109,31 +136,54 @@ void MumpsFactor::run(Team &team, const char *what, MUMPS_INT job) {
     team.together([&] { require_success(mumps_, what); });
 }
 
-void MumpsFactor::analyse(Team &team, const FactorTask &task, KeptOrder &order) {
+/// An order that is given, and the nodes: the graph on which MUMPS works on the brain has these for vertices.
+void MumpsFactor::take_order(NodeOrder &order) {
+    if (order.position.empty()) return;
+    control(7) = 1, mumps_.perm_in = order.position.data();
+    if (order.first.empty()) return;
+    control(15) = 1;
+    mumps_.nblk = static_cast<MUMPS_INT>(order.first.size()) - 1;
+    mumps_.blkptr = order.first.data(), mumps_.blkvar = order.dofs.data();
+}
+
+void MumpsFactor::analyse(Team &team, const FactorTask &task, KeptOrder &kept) {
     mumps_.nnz_loc = static_cast<MUMPS_INT8>(value_.size());
     mumps_.irn_loc = row_.data(), mumps_.jcn_loc = column_.data(), mumps_.a_loc = value_.data();
-    const bool known = order.added == task.n_added; // the same on all ranks
-    if (known) control(7) = 1, mumps_.perm_in = order.position.data();
+    take_order(kept.order);
     // A definite matrix is factored without pivoting, so that a pivot that is not positive says that it is
     // none.
     if (!task.count_only) mumps_.cntl[0] = 0;
     if (task.count_only) control(31) = 1; // nothing of the factor is kept
     run(team, "analysis", 1);
-    if (known) return;
-    team.together([&] {
-        if (team.is_brain()) order.position.assign(mumps_.sym_perm, mumps_.sym_perm + mumps_.n);
+    team.together([&] { // where MUMPS had to find an order it need not do so again
+        if (team.is_brain() && kept.order.position.empty())
+            kept.order.position.assign(mumps_.sym_perm, mumps_.sym_perm + mumps_.n);
     });
-    order.added = task.n_added;
+    kept.added = task.n_added;
 }
 
-/// Pivoting may need more room than the analysis foresaw: then again with more.
-void MumpsFactor::factorize(Team &team) {
+/// MUMPS works in our memory and leaves the factor at its beginning. Fronts were behind it, a third of the
+/// whole on one rank and half of it on several, which MUMPS itself would keep as long as the factor.
+void MumpsFactor::lend_room(Team &team) {
+    team.together([&] { workspace_.resize(counted(mumps_.info[7]) * sizeof(double)); });
+    mumps_.wk_user = static_cast<double *>(workspace_.data());
+    mumps_.lwk_user = mumps_.info[7];
+}
+
+/// Pivoting may need more room than the analysis foresaw: then again with more, in memory of MUMPS's own.
+void MumpsFactor::factorize(Team &team, const FactorTask &task) {
+    if (!task.count_only) lend_room(team);
     for (int attempt = 0; attempt < 3; ++attempt) {
         mumps_.job = 2;
         dmumps_c(&mumps_);
-        if (mumps_.infog[0] != -9 && mumps_.infog[0] != -8) break;
+        const MUMPS_INT code = mumps_.infog[0];
+        if (code != -9 && code != -8 && code != -11) break;
+        mumps_.wk_user = nullptr, mumps_.lwk_user = 0;
+        workspace_.resize(0);
         control(14) *= 2;
     }
+    if (mumps_.infog[0] >= 0 && workspace_.data())
+        workspace_.keep_first(counted(mumps_.info[8]) * sizeof(double));
     if (mumps_.infog[0] == -10 ||
         mumps_.infog[0] == -6) { // the same on all ranks: singular, which is an answer
         outcome_ = Outcome::singular;

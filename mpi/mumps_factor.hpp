@@ -1,6 +1,6 @@
 // A factorization of the matrices of a team by MUMPS, spread over its ranks.
 #pragma once
-#include "mpi/matrices.hpp"
+#include "mpi/node_order.hpp"
 #include <dmumps_c.h>
 
 namespace plm::mpi {
@@ -8,7 +8,7 @@ namespace plm::mpi {
 /// An order of elimination found once, on the brain; the same for all matrices of a pattern.
 struct KeptOrder {
     std::int64_t added = -1; // of how many entries beside the matrices' it was made; -1: there is none
-    std::vector<MUMPS_INT> position;
+    NodeOrder order;
 };
 
 /// What is to be factored: A with some DOFs held, and entries added to it (lower triangle, base 0).
@@ -22,6 +22,23 @@ struct FactorTask {
     std::int64_t n_added = 0;
 };
 
+/// Memory whose end can be given back to the system while the beginning stays.
+class Workspace {
+  public:
+    Workspace() = default;
+    ~Workspace() { resize(0); }
+    Workspace(const Workspace &) = delete;
+    Workspace &operator=(const Workspace &) = delete;
+    /// What it held is gone.
+    void resize(std::size_t bytes);
+    void keep_first(std::size_t bytes);
+    void *data() const { return data_; }
+
+  private:
+    void *data_ = nullptr;
+    std::size_t bytes_ = 0;
+};
+
 class MumpsFactor {
   public:
     enum class Outcome { factored = 0, not_positive_definite = 1, singular = 2 };
@@ -29,7 +46,7 @@ class MumpsFactor {
     MumpsFactor() = default;
     /// Collective, once. Throws on all ranks alike, and leaves nothing behind then.
     void make(Team &team, const Rows &rows, const Matrices &matrices, const FactorTask &task,
-              KeptOrder &order);
+              KeptOrder &kept);
     MumpsFactor(const MumpsFactor &) = delete;
     MumpsFactor &operator=(const MumpsFactor &) = delete;
     /// Collective, therefore not the destructor's: a factor that is not released keeps its memory.
@@ -56,8 +73,10 @@ class MumpsFactor {
     void set_up(Team &team);
     void take_entries(Team &team, const Rows &rows, const Matrices &matrices, const FactorTask &task);
     void run(Team &team, const char *what, MUMPS_INT job);
-    void analyse(Team &team, const FactorTask &task, KeptOrder &order);
-    void factorize(Team &team);
+    void analyse(Team &team, const FactorTask &task, KeptOrder &kept);
+    void take_order(NodeOrder &order);
+    void lend_room(Team &team);
+    void factorize(Team &team, const FactorTask &task);
     void judge(const FactorTask &task);
     void make_room(Team &team, const Rows &rows);
     void hand_over(Team &team, const Rows &rows, std::int64_t cols, double *x, std::int64_t ld);
@@ -66,6 +85,7 @@ class MumpsFactor {
 
     DMUMPS_STRUC_C mumps_{};
     bool alive_ = false;
+    Workspace workspace_; // MUMPS's, where it lies here
     Outcome outcome_ = Outcome::factored;
     std::int64_t breakdown_ = -1;
     std::vector<char> held_; // own rows: by the host's supports or for this factorization
