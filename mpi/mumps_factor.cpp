@@ -162,8 +162,8 @@ void MumpsFactor::analyse(Team &team, const FactorTask &task, KeptOrder &kept) {
     kept.added = task.n_added;
 }
 
-/// MUMPS works in our memory and leaves the factor at its beginning. Fronts were behind it, a third of the
-/// whole on one rank and half of it on several, which MUMPS itself would keep as long as the factor.
+/// MUMPS works in our memory and leaves the factor at its beginning. Behind it were fronts, a quarter of the
+/// whole on one rank and almost half of it on four, which MUMPS itself would keep as long as the factor.
 void MumpsFactor::lend_room(Team &team) {
     team.together([&] { workspace_.resize(counted(mumps_.info[7]) * sizeof(double)); });
     mumps_.wk_user = static_cast<double *>(workspace_.data());
