@@ -81,6 +81,7 @@ int study_run_steps(study_case *c, study_steps *s) {
     plm_basis *pod = NULL;
     plm_hbm *hbm = NULL;
     memset(s, 0, sizeof *s);
+    plm_context_set_effort(c->ctx, 0); /* what is compared is not to be cut */
     plm_status status = compress(c, &r, &pod);
     if (status >= 0) status = plm_basis_get_int(pod, "size", &s->basis_size);
     if (status >= 0) study_say(c, "harmonics and time samples on %" PRId64 " coordinates", s->basis_size);
