@@ -229,9 +229,8 @@ class Chain {
         tell(r);
         r.error = std::max(r.error, r.options.tolerance + r.basis->space()->error_estimate);
         r.error = whole_error(r) + model_->space_options().reduction_error;
-        // what was not followed may be higher by any amount, unless the whole curve of the look is not
-        const bool is_known = is_whole(*r.curve) || (spans(*r.curve) && r.peak.seen_in_time) ||
-                              (look_ && is_whole(*look_) && !says_more(*look_, *r.curve, watch_));
+        // what was not followed may be higher by any amount
+        const bool is_known = is_whole(*r.curve) || (spans(*r.curve) && r.peak.seen_in_time);
         if (!std::isfinite(r.error) || !is_known || r.peak.branch->warnings.has(reason::no_peak))
             r.error = NAN;
         if (r.larger) watch_.keeping(r.warnings).warn(reason::larger_motion, words_for(*r.larger, known(r)));
