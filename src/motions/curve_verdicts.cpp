@@ -294,7 +294,7 @@ void check_span(bool upward, Watch watch, Branch &branch) {
                          "and no curve was found from the other end. Sweep over a wider range "
                          "(frequency_min_hz, frequency_max_hz), whose ends lie beside the loop",
                          branch.points().front().omega / (2 * M_PI)));
-    if (branch.end_reason != reason::range_end || branch.points().size() < 3) return;
+    if (branch.end_reason != reason::range_end || branch.points().empty()) return;
     // it may have begun a little inside the range
     const double begin = branch.points().front().omega, end = branch.points().back().omega;
     constexpr double same = 1e-9; // of the frequency: the boundary of the range

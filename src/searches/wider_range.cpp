@@ -21,6 +21,7 @@ class Widening {
           asked_min_(options.frequency_min_hz), asked_max_(options.frequency_max_hz) {}
 
     void run(const Output *asked) {
+        if (points().size() < 2) return; // it left the range with its first step, and leads nowhere
         if (bring_inside()) leave_room();
         asked_ = asked;
         if (asked_ && branch_.end_reason == reason::range_end) bring_inside();
@@ -60,7 +61,7 @@ class Widening {
     // Both ends may lie at one frequency: a curve that comes back through its folds.
     End where_highest() const {
         const std::int64_t top = highest(), n = static_cast<std::int64_t>(points().size());
-        if (n < 2 || (top > 0 && top < n - 1) || !(height(top) > 0)) return End::none;
+        if ((top > 0 && top < n - 1) || !(height(top) > 0)) return End::none;
         return top == 0 ? End::first : End::last;
     }
 
