@@ -244,8 +244,8 @@ void take_harmonics(const SweepTask &task, std::shared_ptr<Branch> &branch) {
     other.exact = false;
     other.options.motion = MotionKind::harmonics;
     const auto take = [&](const std::shared_ptr<Branch> &next) {
-        const bool is_whole = !was_stopped(*next) && (spans(*next) || !branch || !spans(*branch));
-        if (!branch || (is_whole && (!part || says_more(*next, *part, task.watch)))) branch = next;
+        if (branch && (was_stopped(*next) || (spans(*branch) && !spans(*next)))) return;
+        if (!branch || !part || says_more(*next, *part, task.watch)) branch = next;
     };
     within(effort_left(),
            [&] { take(task.look ? std::make_shared<Branch>(*task.look) : sweep_with_few_harmonics(other)); });
